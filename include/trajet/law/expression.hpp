@@ -1,0 +1,46 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "trajet/error.hpp"
+#include "trajet/math/vector.hpp"
+
+namespace trajet {
+
+namespace detail {
+struct SyntaxNode;
+}
+
+/// A formula as a user wrote it: parsed, not yet bound to the meaning of its names. Cheap to copy.
+///
+/// Scalar or 3-vector valued. Grammar and functions: docs/formats/expressions.md.
+class Expression {
+ public:
+  Expression(double value);           // NOLINT(google-explicit-constructor): a number is a formula
+  Expression(const Vector3& value);   // NOLINT(google-explicit-constructor)
+  Expression(const char* text);       // NOLINT(google-explicit-constructor): parses; throws InputError
+  Expression(const std::string& text);  // NOLINT(google-explicit-constructor)
+  /// Parses `text`, whose first character stands at `where`. Throws InputError that points at the character.
+  static Expression parse(std::string_view text, const SourceLocation& where = {});
+  /// A vector built of three scalar formulas, as `[a, b, c]`.
+  static Expression vector(const Expression& x, const Expression& y, const Expression& z);
+  /// A number that stands at `where` in a file: errors about its use point there.
+  static Expression number(double value, const SourceLocation& where);
+
+  const SourceLocation& where() const;
+  /// The text it was parsed from, or an equivalent one.
+  const std::string& text() const;
+  /// The names it uses, as written (`v0`, `sun.r`), each once, in order of appearance.
+  std::vector<std::string> names() const;
+
+  const detail::SyntaxNode& root() const { return *root_; }
+
+ private:
+  explicit Expression(std::shared_ptr<const detail::SyntaxNode> root);
+  std::shared_ptr<const detail::SyntaxNode> root_;
+};
+
+}  // namespace trajet

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cmath>
+
+#include "trajet/math/force_inline.hpp"
+
+namespace trajet {
+
+/// What a number type offers besides + - * / and the functions of <cmath>: comparisons whose answer is as rich as the type
+/// needs (a bool, a mask of lanes, "undecided"), and `where`, which takes that answer.
+///
+/// Here for double. Series, Pack and Interval add their overloads beside the type. A law that calls these instead of
+/// `if` and `?:` runs on all of them.
+
+TRAJET_INLINE bool less(double a, double b) { return a < b; }
+TRAJET_INLINE bool less_equal(double a, double b) { return a <= b; }
+TRAJET_INLINE bool equal(double a, double b) { return a == b; }
+
+/// `a` where the condition holds, else `b`.
+TRAJET_INLINE double where(bool condition, double a, double b) { return condition ? a : b; }
+
+/// -1, 0 or 1; not-a-number stays.
+TRAJET_INLINE double sign(double x) { return x > 0.0 ? 1.0 : x < 0.0 ? -1.0 : x; }
+
+TRAJET_INLINE double min(double a, double b) { return b < a ? b : a; }
+TRAJET_INLINE double max(double a, double b) { return a < b ? b : a; }
+
+/// Length of (x, y, z), by the plain formula: no overflow protection, the same rounding on every machine.
+TRAJET_INLINE double norm3(double x, double y, double z) { return std::sqrt(x * x + y * y + z * z); }
+
+}  // namespace trajet

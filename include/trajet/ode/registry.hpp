@@ -1,0 +1,37 @@
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "trajet/ode/stepper.hpp"
+#include "trajet/ode/system.hpp"
+
+namespace trajet {
+
+enum class StepControl {
+  fixed,     ///< the user gives the step
+  adaptive,  ///< the method chooses steps that meet rtol and atol
+};
+
+/// One integration method as users see it. A line of the table in src/ode/registry.cpp adds one.
+struct MethodInfo {
+  std::string_view name;
+  std::vector<std::string_view> aliases;
+  int order;        ///< of the global error; 0: chosen from the tolerance
+  int dense_order;  ///< of the Segments' global error; 0: chosen from the tolerance
+  StepControl control;
+  std::string_view known_as;  ///< what the course or MATLAB calls it, with the feature's number
+  std::string_view summary;   ///< one line
+  std::unique_ptr<AnyStepper> (*make)(System& system, const StepOptions& options);
+};
+
+/// All methods, in the order in which `trajet methods` prints them.
+std::span<const MethodInfo> methods();
+
+/// The method of that name or alias, or nullptr.
+const MethodInfo* find_method(std::string_view name);
+
+}  // namespace trajet

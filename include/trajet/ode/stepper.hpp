@@ -1,0 +1,67 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <concepts>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "trajet/ode/segment.hpp"
+
+namespace trajet {
+
+/// What became of one attempt to advance.
+enum class StepStatus {
+  ok,              ///< the state moved on by one accepted step
+  step_too_small,  ///< the tolerance cannot be met: the step shrank below the resolution of time
+  not_finite,      ///< the law gives infinity or not-a-number and no smaller step helps
+};
+
+/// What the work has cost so far.
+struct StepStatistics {
+  long steps = 0;           ///< accepted steps
+  long rejected_steps = 0;  ///< attempts that missed the tolerance
+  long law_evaluations = 0; ///< evaluations of the law; an expansion into a power series counts once
+};
+
+/// What a user may choose of a method. Each method reads what concerns it.
+struct StepOptions {
+  double rtol = 1e-12;         ///< tolerance relative to each component, error-controlled methods
+  double atol = 1e-12;         ///< absolute tolerance in each component's unit, error-controlled methods
+  std::optional<double> step;  ///< fixed-step methods: the step (s, > 0), required unless `nodes`; others: the first step
+  std::vector<double> nodes;   ///< fixed-step methods: the times of the step ends, for unequal steps
+  int order = 0;               ///< series methods: the order; 0 lets the method choose
+};
+
+/// A method at work on one system: it holds the current time and state and moves them on, one accepted step at a time.
+///
+/// - `start(t, q)` begins, or begins anew after the state was changed from outside (a bounce).
+/// - `advance(t_limit)` makes one accepted step towards `t_limit`, in either direction of time, never beyond it, and lands
+///   on it exactly: `time() == t_limit`.
+/// - `fill_segment(segment)` writes the last step as a Segment. It costs only where it is called.
+template <class S>
+concept Stepper = requires(S stepper, const S& fixed, double t, const typename S::State& q, Segment<S::kDimension>& segment) {
+  stepper.start(t, q);
+  { stepper.advance(t) } -> std::same_as<StepStatus>;
+  stepper.fill_segment(segment);
+  { fixed.time() } -> std::convertible_to<double>;
+  { fixed.state() } -> std::convertible_to<const typename S::State&>;
+  { fixed.statistics() } -> std::convertible_to<const StepStatistics&>;
+};
+
+/// A Stepper of run-time dimension behind an interface, as the registry of methods makes them.
+class AnyStepper {
+ public:
+  using State = Eigen::VectorXd;
+  static constexpr int kDimension = Eigen::Dynamic;
+
+  virtual ~AnyStepper() = default;
+  virtual void start(double t, const State& q) = 0;
+  virtual StepStatus advance(double t_limit) = 0;
+  virtual void fill_segment(Segment<>& segment) = 0;
+  virtual double time() const = 0;
+  virtual const State& state() const = 0;
+  virtual const StepStatistics& statistics() const = 0;
+};
+
+}  // namespace trajet

@@ -1,0 +1,97 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "trajet/math/vector.hpp"
+#include "trajet/ode/stepper.hpp"
+
+namespace trajet {
+
+enum class RunStatus {
+  finished,     ///< reached the end time
+  stopped,      ///< an obstacle or an event stopped it
+  failed,       ///< the numbers failed: `failure` says where and why
+  interrupted,  ///< asked to stop from outside
+};
+
+enum class ImpactKind {
+  hit,    ///< touches and crosses, or bounces
+  graze,  ///< touches without crossing
+  rest,   ///< bouncing has ended: the body stays in contact
+  leave,  ///< contact ends
+};
+
+/// A body met an obstacle. World frame, SI units.
+struct Impact {
+  double time = 0.0;
+  std::string body;
+  std::string with;
+  ImpactKind kind = ImpactKind::hit;
+  Vector3 point;            ///< of contact, on the obstacle
+  Vector3 normal;           ///< unit, of the obstacle at the point, towards the body's side before the impact
+  Vector3 position;         ///< of the body's centre of mass
+  Vector3 velocity_before;
+  Vector3 velocity_after;
+  Vector3 impulse;          ///< per mass where the body has none: m/s, else N s
+  double time_error_bound = 0.0;  ///< s
+};
+
+/// A `when` crossed zero.
+struct EventRecord {
+  double time = 0.0;
+  std::string event;
+  int direction = 0;  ///< +1 rising, -1 falling
+};
+
+struct BodyState {
+  std::string body;
+  Vector3 position;
+  Vector3 velocity;
+  Vector3 acceleration;
+};
+
+struct NamedValue {
+  std::string name;
+  double value = 0.0;
+};
+
+/// All bodies and extra states at one time. `after_impact` marks the second of two samples at an impact's time.
+struct Sample {
+  double time = 0.0;
+  std::vector<BodyState> bodies;
+  std::vector<NamedValue> states;
+};
+
+struct RunStatistics : StepStatistics {
+  double wall_seconds = 0.0;
+};
+
+struct RunResult {
+  std::string scene;   ///< file name
+  std::string title;
+  std::string method;  ///< canonical name
+  RunStatus status = RunStatus::finished;
+  std::string failure;  ///< where and why, if `status` is failed
+  double start_time = 0.0;
+  double end_time = 0.0;
+  std::vector<NamedValue> parameters;
+  std::vector<Impact> impacts;
+  std::vector<EventRecord> events;
+  Sample final;
+  std::vector<std::string> warnings;
+  RunStatistics statistics;
+};
+
+/// Receives a run while it goes on. Every function has a default that does nothing.
+class RunObserver {
+ public:
+  virtual ~RunObserver() = default;
+  /// In order of time: the start, each multiple of the sample spacing, before and after each impact, the end.
+  virtual void sample(const Sample&) {}
+  /// Asked between steps: true ends the run as `interrupted`. `time` is how far the run has come.
+  virtual bool interrupted(double time) { return time != time; }
+};
+
+}  // namespace trajet

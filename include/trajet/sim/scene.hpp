@@ -1,0 +1,146 @@
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "trajet/error.hpp"
+#include "trajet/law/expression.hpp"
+
+namespace trajet {
+
+/// A scene: everything that a motion is made of, as plain data. The scene file and C++ programs fill the same struct.
+///
+/// Every quantity is an Expression over the parameters, SI units, world frame W; only laws (`acceleration`, `force`,
+/// `position_rate`, `rate`, `when`, `set`) may also use t and the states. `World` gives it numbers and checks it.
+
+struct NamedExpression {
+  std::string name;
+  Expression value;
+  SourceLocation where{};
+};
+
+struct TimeOptions {
+  Expression start = 0.0;            ///< s
+  std::optional<Expression> end;     ///< s; required
+  std::optional<Expression> sample;  ///< s; default: (end - start) / 200
+};
+
+/// How the times of impacts and events are found.
+enum class Locator {
+  polynomial,     ///< every root of the gap on the Segment, by enclosure
+  interpolation,  ///< the course's 3.1: a sign change between step ends, then the mean velocity
+  subdivision,    ///< the course's 3.2: a sign change between step ends, then repeated subdivision
+};
+
+struct MethodOptions {
+  std::string name = "taylor";
+  std::optional<Expression> rtol;  ///< default 1e-12
+  std::optional<Expression> atol;  ///< default 1e-12
+  std::optional<Expression> step;  ///< s
+  std::vector<Expression> steps;   ///< s; unequal steps of a fixed-step method, one after the other
+  int order = 0;                   ///< series methods; 0: the method chooses
+  long max_steps = 1'000'000;
+  Locator locate = Locator::polynomial;
+  SourceLocation where{};          ///< of the name, or of the table
+};
+
+struct PointShape {};
+struct BallShape {
+  Expression radius;  ///< m
+};
+using BodyShape = std::variant<PointShape, BallShape>;
+
+/// A moving body. Its name is usable in every law as NAME.r, NAME.vx, ….
+struct BodyDefinition {
+  std::string name;
+  BodyShape shape = PointShape{};
+  Expression position = Vector3(0, 0, 0);  ///< p_WB at the start, m
+  Expression velocity = Vector3(0, 0, 0);  ///< v_WB at the start, m/s
+  std::optional<Expression> acceleration;  ///< m/s^2; or `force` with `mass`; neither: uniform motion
+  std::optional<Expression> force;         ///< N
+  std::optional<Expression> mass;          ///< kg, may depend on t and the states
+  std::optional<Expression> position_rate; ///< dr/dt in m/s; default: the velocity
+  SourceLocation where{};
+};
+
+struct PlaneDefinition {
+  Expression point;   ///< m
+  Expression normal;  ///< any length; the body lives on the side it points to
+};
+struct DiskDefinition {
+  Expression center, normal, radius;
+};
+struct RectangleDefinition {
+  Expression center, normal, up;  ///< `up`: direction of the height, made orthogonal to the normal
+  Expression width, height;       ///< m, full edge lengths; the height along `up`
+};
+struct TriangleDefinition {
+  Expression a, b, c;  ///< corners, m
+};
+struct SphereDefinition {
+  Expression center, radius;
+};
+/// Exactly one of the three, or none for the identity.
+struct OrientationDefinition {
+  std::optional<Expression> axis, angle_rad;
+  std::vector<Expression> quaternion;  ///< w, x, y, z; normalised
+  std::vector<Expression> matrix;      ///< three rows; a rotation
+  SourceLocation where{};
+};
+struct BoxDefinition {
+  Expression center, size;  ///< size: full edge lengths, m
+  OrientationDefinition orientation{};
+};
+using ObstacleShape = std::variant<PlaneDefinition, DiskDefinition, RectangleDefinition, TriangleDefinition, SphereDefinition,
+                                   BoxDefinition>;
+
+enum class OnHit { stop, bounce, pass };
+
+struct ObstacleDefinition {
+  std::string name;
+  ObstacleShape shape;
+  OnHit on_hit = OnHit::stop;
+  Expression restitution = 1.0;  ///< 0..1, for bounce
+  SourceLocation where{};
+};
+
+/// A further ordinary differential equation d(name)/dt = rate.
+struct StateDefinition {
+  std::string name;
+  Expression value;
+  Expression rate;
+  SourceLocation where{};
+};
+
+enum class CrossingDirection { rising, falling, any };
+enum class EventAction { record, stop, set };
+
+/// Something to notice when `when` crosses zero.
+struct EventDefinition {
+  std::string name;
+  Expression when;
+  CrossingDirection direction = CrossingDirection::any;
+  EventAction action = EventAction::record;
+  /// For `set`: new values, all computed from the state before. A name is an extra state or a part of a body: `ball.v`, `ball.vz`.
+  std::vector<NamedExpression> set;
+  SourceLocation where{};
+};
+
+struct Scene {
+  std::string title;
+  std::string file;  ///< where it was read from; empty for a scene built in C++
+  std::vector<NamedExpression> parameters;
+  TimeOptions time;
+  MethodOptions method;
+  std::vector<BodyDefinition> bodies;
+  std::vector<ObstacleDefinition> obstacles;
+  std::vector<StateDefinition> states;
+  std::vector<EventDefinition> events;
+  /// Closed forms over t and the parameters, by name: `ball.r`, `ball.v`, or an extra state.
+  std::vector<NamedExpression> exact;
+};
+
+}  // namespace trajet
