@@ -28,7 +28,10 @@ class InputError : public std::runtime_error {
  private:
   static std::string format(const SourceLocation& where, const std::string& message) {
     std::string text = where.file;
-    if (where.line > 0) text += (text.empty() ? "" : ":") + std::to_string(where.line) + ":" + std::to_string(where.column);
+    if (where.line > 0) {
+      if (!text.empty()) text += ':';
+      text += std::to_string(where.line) + ':' + std::to_string(where.column);
+    }
     if (!text.empty()) text += ": ";
     return text + "error: " + message;
   }
