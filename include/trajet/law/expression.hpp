@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -12,7 +13,8 @@ namespace trajet {
 
 namespace detail {
 struct SyntaxNode;
-}
+struct Formula;
+}  // namespace detail
 
 /// A formula as a user wrote it: parsed, not yet bound to the meaning of its names. Cheap to copy.
 ///
@@ -23,8 +25,9 @@ class Expression {
   Expression(const Vector3& value);   // NOLINT(google-explicit-constructor)
   Expression(const char* text);       // NOLINT(google-explicit-constructor): parses; throws InputError
   Expression(const std::string& text);  // NOLINT(google-explicit-constructor)
-  /// Parses `text`, whose first character stands at `where`. Throws InputError that points at the character.
-  static Expression parse(std::string_view text, const SourceLocation& where = {});
+  /// Parses `text`, whose first character stands at `where`. Throws InputError that points at the offending token.
+  /// `dashed_names`: known names that contain `-`; where the text has one, it is that name and not a subtraction.
+  static Expression parse(std::string_view text, const SourceLocation& where = {}, std::span<const std::string> dashed_names = {});
   /// A vector built of three scalar formulas, as `[a, b, c]`.
   static Expression vector(const Expression& x, const Expression& y, const Expression& z);
   /// A number that stands at `where` in a file: errors about its use point there.
@@ -33,14 +36,18 @@ class Expression {
   const SourceLocation& where() const;
   /// The text it was parsed from, or an equivalent one.
   const std::string& text() const;
-  /// The names it uses, as written (`v0`, `sun.r`), each once, in order of appearance.
+  /// The names it uses, as written (`v0`, `sun.r`, `t`; not `pi`), each once, in order of appearance.
   std::vector<std::string> names() const;
 
-  const detail::SyntaxNode& root() const { return *root_; }
+  const detail::SyntaxNode& root() const;
 
  private:
-  explicit Expression(std::shared_ptr<const detail::SyntaxNode> root);
-  std::shared_ptr<const detail::SyntaxNode> root_;
+  explicit Expression(detail::Formula formula);
+  std::shared_ptr<const detail::Formula> formula_;
 };
+
+/// Whether the language gives the name a meaning of its own, so that no parameter, state or body can have it:
+/// a function, `pi`, `t`, `and`, `or`, `not`.
+bool is_reserved_name(std::string_view name);
 
 }  // namespace trajet

@@ -1,0 +1,87 @@
+#include "trajet/law/expression.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <utility>
+
+#include "syntax.hpp"
+
+namespace trajet {
+namespace {
+
+using detail::Formula;
+using detail::SyntaxNode;
+
+/// The shortest text that reads back as the same number.
+std::string shortest(double value) {
+  char buffer[32];
+  return {buffer, std::to_chars(buffer, buffer + sizeof buffer, value).ptr};
+}
+
+SyntaxNode number_node(double value, const SourceLocation& where) {
+  SyntaxNode node;
+  node.where = where;
+  node.value = value;
+  node.text = shortest(value);
+  return node;
+}
+
+Formula number_formula(double value, const SourceLocation& where) { return {number_node(value, where), where, shortest(value)}; }
+
+Formula vector_formula(const SyntaxNode& x, const SyntaxNode& y, const SyntaxNode& z, const SourceLocation& where, std::string text) {
+  SyntaxNode node;
+  node.kind = SyntaxNode::Kind::vector;
+  node.where = where;
+  node.text = "[";
+  node.height = 1 + std::max({x.height, y.height, z.height});
+  node.children = {x, y, z};
+  return {std::move(node), where, std::move(text)};
+}
+
+void collect_names(const SyntaxNode& node, std::vector<std::string>& names) {
+  if (node.kind == SyntaxNode::Kind::name && std::ranges::find(names, node.text) == names.end()) names.push_back(node.text);
+  for (const SyntaxNode& child : node.children) collect_names(child, names);
+}
+
+}  // namespace
+
+Expression::Expression(detail::Formula formula) : formula_(std::make_shared<const Formula>(std::move(formula))) {}
+
+Expression::Expression(double value) : Expression(number_formula(value, {})) {}
+
+Expression::Expression(const Vector3& value)
+    : Expression(vector_formula(number_node(value.x(), {}), number_node(value.y(), {}), number_node(value.z(), {}), {},
+                                "[" + shortest(value.x()) + ", " + shortest(value.y()) + ", " + shortest(value.z()) + "]")) {}
+
+Expression::Expression(const char* text) : Expression(detail::parse_formula(text, {}, {})) {}
+
+Expression::Expression(const std::string& text) : Expression(detail::parse_formula(text, {}, {})) {}
+
+Expression Expression::parse(std::string_view text, const SourceLocation& where, std::span<const std::string> dashed_names) {
+  return Expression(detail::parse_formula(text, where, dashed_names));
+}
+
+Expression Expression::vector(const Expression& x, const Expression& y, const Expression& z) {
+  return Expression(vector_formula(x.root(), y.root(), z.root(), x.where(), "[" + x.text() + ", " + y.text() + ", " + z.text() + "]"));
+}
+
+Expression Expression::number(double value, const SourceLocation& where) { return Expression(number_formula(value, where)); }
+
+const SourceLocation& Expression::where() const { return formula_->where; }
+
+const std::string& Expression::text() const { return formula_->text; }
+
+const detail::SyntaxNode& Expression::root() const { return formula_->root; }
+
+std::vector<std::string> Expression::names() const {
+  std::vector<std::string> names;
+  collect_names(root(), names);
+  return names;
+}
+
+bool is_reserved_name(std::string_view name) {
+  constexpr std::string_view kWords[] = {"t", "pi", "and", "or", "not"};
+  return detail::find_function(name) != nullptr || std::ranges::find(kWords, name) != std::end(kWords);
+}
+
+}  // namespace trajet

@@ -1,0 +1,127 @@
+#include "lexer.hpp"
+
+#include <algorithm>
+#include <charconv>
+
+namespace trajet::detail {
+namespace {
+
+// The language is ASCII; the <cctype> functions depend on the locale and on the sign of char.
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
+bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; }
+bool is_name_character(char c) { return is_letter(c) || is_digit(c); }
+bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
+
+/// The character at `offset` for a message: whole where it is UTF-8, as a number where it cannot be printed.
+std::string quote_character(std::string_view text, std::size_t offset) {
+  const auto byte = static_cast<unsigned char>(text[offset]);
+  if (byte < 0x20 || byte == 0x7f) return "the control character " + std::to_string(byte);
+  std::size_t end = offset + 1;
+  while (byte >= 0xc0 && end < text.size() && end < offset + 4 && (static_cast<unsigned char>(text[end]) & 0xc0) == 0x80) ++end;
+  if (byte >= 0x80 && end == offset + 1) return "the byte " + std::to_string(byte);
+  return "'" + std::string(text.substr(offset, end - offset)) + "'";
+}
+
+struct ForeignOperator {
+  std::string_view spelling;
+  std::string_view ours;
+};
+
+/// What other languages write, longest first.
+constexpr ForeignOperator kForeignOperators[] = {{"**", "^"}, {"&&", "and"}, {"||", "or"}, {"<>", "!="}, {"!", "not"}, {"&", "and"},
+                                                 {"|", "or"}, {"=", "=="},   {";", ","},   {"{", "("},   {"}", ")"}};
+
+constexpr std::string_view kSymbols[] = {"<=", ">=", "==", "!=", "+", "-", "*", "/", "^", "<", ">", "(", ")", "[", "]", ","};
+
+}  // namespace
+
+Lexer::Lexer(std::string_view text, const SourceLocation& where, std::span<const std::string> dashed_names)
+    : text_(text), where_(where), dashed_names_(dashed_names) {
+  if (where_.line == 0) where_.line = where_.column = 1;
+}
+
+void Lexer::move(std::size_t length) {
+  for (const std::size_t end = position_ + length; position_ < end; ++position_) {
+    ++where_.column;
+    if (text_[position_] == '\n') {
+      ++where_.line;
+      where_.column = 1;
+    }
+  }
+}
+
+Token Lexer::take(TokenKind kind, std::size_t length) {
+  const Token token{kind, text_.substr(position_, length), where_.line, where_.column};
+  move(length);
+  return token;
+}
+
+Token Lexer::next() {
+  while (position_ < text_.size() && is_blank(text_[position_])) move(1);
+  if (position_ == text_.size()) return take(TokenKind::end, 0);
+  const char c = text_[position_];
+  const bool point_then_digit = c == '.' && position_ + 1 < text_.size() && is_digit(text_[position_ + 1]);
+  if (is_digit(c) || point_then_digit) return number();
+  if (is_letter(c)) return name();
+  if (c == '"' || c == '\'') return quoted_string();
+  return symbol();
+}
+
+Token Lexer::number() {
+  const char* begin = text_.data() + position_;
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(begin, text_.data() + text_.size(), value);
+  const std::string_view digits(begin, static_cast<std::size_t>(end - begin));
+  if (error != std::errc()) {
+    fail("the number " + std::string(digits.substr(0, 40)) + " is outside the range of double precision");
+  }
+  Token token = take(TokenKind::number, digits.size());
+  token.value = value;
+  return token;
+}
+
+std::size_t Lexer::name_length(std::size_t begin) const {
+  // NAME(.NAME)*; a point that no letter follows is not part of it.
+  std::size_t end = begin;
+  while (true) {
+    while (end < text_.size() && is_name_character(text_[end])) ++end;
+    if (end + 1 >= text_.size() || text_[end] != '.' || !is_letter(text_[end + 1])) return end - begin;
+    ++end;
+  }
+}
+
+Token Lexer::name() {
+  const std::string_view rest = text_.substr(position_);
+  std::size_t dashed = 0;
+  for (const std::string& candidate : dashed_names_) {
+    const bool matches = rest.starts_with(candidate) && (rest.size() == candidate.size() || !is_name_character(rest[candidate.size()]));
+    if (matches) dashed = std::max(dashed, candidate.size());
+  }
+  const bool has_part = dashed > 0 && dashed + 1 < rest.size() && rest[dashed] == '.' && is_letter(rest[dashed + 1]);
+  const std::size_t dashed_length = has_part ? dashed + 1 + name_length(position_ + dashed + 1) : dashed;
+  return take(TokenKind::name, std::max(dashed_length, name_length(position_)));
+}
+
+Token Lexer::quoted_string() {
+  const std::size_t end = text_.find(text_[position_], position_ + 1);
+  if (end == std::string_view::npos) fail("the closing quote is missing");
+  Token token = take(TokenKind::string, end + 1 - position_);
+  token.text = token.text.substr(1, token.text.size() - 2);
+  return token;
+}
+
+Token Lexer::symbol() {
+  const std::string_view rest = text_.substr(position_);
+  for (const ForeignOperator& foreign : kForeignOperators) {
+    const bool is_ours = rest.starts_with("==") || rest.starts_with("!=");
+    if (!is_ours && rest.starts_with(foreign.spelling)) {
+      fail("'" + std::string(foreign.spelling) + "' is not an operator here; did you mean '" + std::string(foreign.ours) + "'?");
+    }
+  }
+  for (const std::string_view symbol : kSymbols) {
+    if (rest.starts_with(symbol)) return take(TokenKind::symbol, symbol.size());
+  }
+  fail(quote_character(text_, position_) + " is not allowed in an expression");
+}
+
+}  // namespace trajet::detail
