@@ -21,6 +21,9 @@ if(TRAJET_SANITIZE)
   target_compile_options(trajet_options INTERFACE ${sanitize})
   target_link_options(trajet_options INTERFACE ${sanitize})
 endif()
+if(TRAJET_FUZZ)
+  target_compile_options(trajet_options INTERFACE -fsanitize=fuzzer-no-link)
+endif()
 
 # trajet_add_library(NAME EXPORT_AS SHORT SOURCES FILE...): a static library that installs as trajet::SHORT.
 function(trajet_add_library name)

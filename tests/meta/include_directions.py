@@ -1,7 +1,8 @@
 """Checks who includes whom: include_directions.py ROOT
 
 Reads every `#include "..."` of include/, src/ and apps/ under ROOT and compares it with the table of
-docs/design/architecture.md. Prints each violation as FILE:LINE and exits 1 if there is one.
+docs/design/architecture.md. The core needs Eigen, xsimd and Boost alone: every other library belongs to some layers.
+Prints each violation as FILE:LINE and exits 1 if there is one.
 """
 
 import pathlib
@@ -24,8 +25,17 @@ ALLOWED["io"] = ALLOWED["viz"] = ALLOWED["ensemble"] | {"ensemble"}
 ALLOWED["apps"] = ALLOWED["io"] | {"io", "viz"}
 # Headers directly in include/trajet/ that every layer may include; any other one is for users of the library only.
 LEAVES = {"error", "version"}
+# Which layers may include a library, by the first folder or the name of its header.
+LIBRARIES = {
+    "toml++": {"io"},
+    "udunits2.h": {"io"},
+    "nlohmann": {"io"},
+    "fmt": {"io", "apps"},
+    "CLI": {"apps"},
+}
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*"([^"]+)"')
+LIBRARY_INCLUDE = re.compile(r"^\s*#\s*include\s*<([^/>]+)")
 
 
 def place(path):
@@ -61,11 +71,14 @@ def violations(root):
             found.append(f"{source}:1: {layer} is no layer of the table")
             continue
         for number, line in enumerate(absolute.read_text(encoding="utf-8").splitlines(), 1):
+            where = f"{source}:{number}"
+            library = LIBRARY_INCLUDE.match(line)
+            if library and layer not in LIBRARIES.get(library[1], {layer}):
+                found.append(f"{where}: {layer or 'a leaf'} may not include <{library[1]}>")
             match = INCLUDE.match(line)
             if not match:
                 continue
             count += 1
-            where = f"{source}:{number}"
             target = resolve(root, source, match[1])
             if target is None:
                 found.append(f'{where}: "{match[1]}" is no file of include/ or src/')

@@ -62,6 +62,12 @@ class IncludeDirections(Tree):
     def test_leaf_includes_a_layer(self):
         self.check("include/trajet/error.hpp", ["trajet/math/roots.hpp"], True)
 
+    def test_libraries(self):
+        self.write("src/io/x.cpp", "#include <toml++/toml.h>\n#include <udunits2.h>\n")
+        self.assertFalse(include_directions.violations(self.root)[0])
+        self.write("src/sim/x.cpp", "#include <fmt/format.h>\n#include <udunits2.h>\n#include <CLI/CLI.hpp>\n")
+        self.assertEqual(len(include_directions.violations(self.root)[0]), 3)
+
     def test_unknown_layer(self):
         self.write("src/misc/x.cpp", "")
         self.assertTrue(include_directions.violations(self.root)[0])

@@ -1,0 +1,23 @@
+# Installs a build, then builds and runs a project that finds it with find_package(trajet).
+#
+#   cmake -DBUILD=... -DWORK=... -DSOURCE=... -DCXX=... -DFLAGS=... -P install_test.cmake
+cmake_minimum_required(VERSION 3.25)
+
+function(run)
+  execute_process(COMMAND ${ARGN} COMMAND_ERROR_IS_FATAL ANY OUTPUT_VARIABLE output)
+  set(output "${output}" PARENT_SCOPE)
+endfunction()
+
+# expect(EXPECTED COMMAND...): the command prints EXPECTED.
+function(expect expected)
+  run(${ARGN})
+  if(NOT output STREQUAL "${expected}\n")
+    message(FATAL_ERROR "expected '${expected}', got '${output}'")
+  endif()
+endfunction()
+
+file(REMOVE_RECURSE ${WORK})
+run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${WORK}/installed)
+run(${CMAKE_COMMAND} -S ${SOURCE}/consumer -B ${WORK}/build -G Ninja
+  -DCMAKE_PREFIX_PATH=${WORK}/installed -DCMAKE_CXX_COMPILER=${CXX} -DCMAKE_CXX_FLAGS=${FLAGS} -DCMAKE_BUILD_TYPE=Release)
+run(${CMAKE_COMMAND} --build ${WORK}/build)
