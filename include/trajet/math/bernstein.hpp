@@ -1,0 +1,131 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cmath>
+#include <limits>
+#include <span>
+
+#include "trajet/math/polynomial.hpp"
+
+namespace trajet {
+
+/// A closed range of values.
+struct Range {
+  double lower;
+  double upper;
+};
+
+namespace detail {
+
+/// 1 / C(n, k) for all degrees that a BernsteinForm can have.  // (degree+1 x degree+1)
+inline constexpr auto kInverseBinomials = [] {
+  std::array<std::array<double, kMaxPolynomialDegree + 1>, kMaxPolynomialDegree + 1> table{};
+  for (int n = 0; n <= kMaxPolynomialDegree; ++n) {
+    double binomial = 1.0;
+    for (int k = 0; k <= n; ++k) {
+      table[static_cast<std::size_t>(n)][static_cast<std::size_t>(k)] = 1.0 / binomial;
+      binomial = binomial * (n - k) / (k + 1);
+    }
+  }
+  return table;
+}();
+
+}  // namespace detail
+
+/// A polynomial on an interval by its Bernstein coefficients: p(begin + s (end - begin)) = sum_i b_i B_i^n(s), 0 <= s
+/// <= 1.
+///
+/// The coefficients bound the polynomial: min b_i <= p <= max b_i on the interval, and their first and second
+/// differences bound, up to positive factors n / |h| and n (n-1) / h^2, its first and second derivative [Farouki 2012].
+/// All bounds include the rounding errors of the coefficients.
+///
+/// Of fixed capacity, so that nothing is allocated. A form of a subinterval is made from the monomial coefficients, not
+/// from the form of the interval: its rounding errors are then those of the terms' size there, which after long flights
+/// is what counts.
+class BernsteinForm {
+ public:
+  /// An empty form, to be assigned to.
+  BernsteinForm() {}  // NOLINT(modernize-use-equals-default): leaves the coefficients uninitialised
+
+  /// The polynomial sum_k coefficients[k] t^k for t between `begin` and `end`, which may be less than `begin`.
+  /// At least one and at most kMaxPolynomialDegree + 1 coefficients.
+  BernsteinForm(std::span<const double> coefficients, double begin, double end)
+      : degree_(static_cast<int>(coefficients.size()) - 1) {
+    assert(0 <= degree_ && degree_ <= kMaxPolynomialDegree);
+    const double h = end - begin;
+    std::array<double, kMaxPolynomialDegree + 1> difference;
+    std::copy(coefficients.begin(), coefficients.end(), difference.begin());
+    if (begin != 0.0) shift_polynomial(std::span(difference).first(coefficients.size()), begin);
+
+    // p(begin + s h) = sum_k a_k s^k  and  Delta^k b_0 = a_k / C(n, k)
+    const auto& inverse_binomial = detail::kInverseBinomials[static_cast<std::size_t>(degree_)];
+    double power = 1.0;
+    double magnitude = 0.0;
+    for (int k = 0; k <= degree_; ++k) {
+      const double a = at(difference, k) * power;
+      magnitude += std::abs(a);
+      at(difference, k) = a * at(inverse_binomial, k);
+      power *= h;
+    }
+    if (begin != 0.0) magnitude = polynomial_magnitude(coefficients, std::abs(begin) + std::abs(h));
+    // Delta^k b_{i+1} = Delta^k b_i + Delta^{k+1} b_i
+    at(b_, 0) = difference[0];
+    for (int i = 1; i <= degree_; ++i) {
+      for (int k = 0; k <= degree_ - i; ++k) at(difference, k) += at(difference, k + 1);
+      at(b_, i) = difference[0];
+    }
+    error_ = roundings(degree_) * kUnitRoundoff * magnitude;
+  }
+
+  int degree() const { return degree_; }
+  double coefficient(int i) const { return at(b_, i); }
+  /// Bound of the rounding error of each coefficient.
+  double error() const { return error_; }
+
+  /// The roundings that a coefficient's terms pass: 2k in the power, a shift of 2n, a weight and n sums.
+  static constexpr double roundings(int degree) { return 4.0 * degree + 3.0; }
+
+  /// Encloses the polynomial on the interval.
+  Range value_range() const {
+    const auto [lower, upper] = std::minmax_element(b_.begin(), b_.begin() + degree_ + 1);
+    return {*lower - error_, *upper + error_};
+  }
+
+  /// Encloses the first derivative with respect to s on the interval: |h| times the rate, in the direction of travel.
+  Range first_difference_range() const {
+    if (degree_ < 1) return {0.0, 0.0};
+    Range d{kInfinity, -kInfinity};
+    for (int i = 0; i < degree_; ++i) extend(d, at(b_, i + 1) - at(b_, i));
+    return scaled(d, degree_, 2.0 * error_);
+  }
+
+  /// Encloses the second derivative with respect to s on the interval: h^2 times the second derivative in time.
+  Range second_difference_range() const {
+    if (degree_ < 2) return {0.0, 0.0};
+    Range d{kInfinity, -kInfinity};
+    for (int i = 0; i + 1 < degree_; ++i) extend(d, (at(b_, i + 2) - at(b_, i + 1)) - (at(b_, i + 1) - at(b_, i)));
+    return scaled(d, degree_ * (degree_ - 1.0), 4.0 * error_);
+  }
+
+ private:
+  using Array = std::array<double, kMaxPolynomialDegree + 1>;
+  static constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+  static double& at(Array& array, int i) { return array[static_cast<std::size_t>(i)]; }
+  static const double& at(const Array& array, int i) { return array[static_cast<std::size_t>(i)]; }
+  static void extend(Range& range, double x) {
+    range.lower = std::min(range.lower, x);
+    range.upper = std::max(range.upper, x);
+  }
+  static Range scaled(const Range& range, double factor, double error) {
+    return {factor * (range.lower - error), factor * (range.upper + error)};
+  }
+
+  int degree_ = 0;
+  double error_ = 0.0;
+  Array b_;
+};
+
+}  // namespace trajet
