@@ -1,0 +1,192 @@
+#include "trajet/io/scene_file.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <memory>
+
+#include "scene_names.hpp"
+#include "scene_solids.hpp"
+#include "toml_document.hpp"
+#include "value_reader.hpp"
+
+namespace trajet {
+
+namespace {
+
+using detail::TableReader;
+using detail::TomlDocument;
+using detail::TomlEntry;
+
+/// Reads one scene: the document and what all of its tables share.
+class SceneReader {
+ public:
+  SceneReader(std::string text, const std::string& file) : document_(std::move(text), file) {
+    collect_dashed_names();
+  }
+
+  Scene read() const {
+    constexpr std::array<std::string_view, 9> kKeys{"title", "parameters", "time",  "method", "body",
+                                                    "obstacle", "state",   "event", "exact"};
+    const TableReader root = reader(document_.root(), "the scene", {document_.file(), 1, 1});
+    root.check_keys(kKeys);
+
+    Scene scene;
+    scene.file = document_.file();
+    if (root.has("title")) scene.title = root.text("title");
+    if (root.has("parameters")) scene.parameters = named_formulas(root.subtable("parameters").titled("[parameters]"));
+    if (!root.has("time")) throw InputError(root.where(), "the scene lacks the table [time] with the key 'end'");
+    scene.time = read_time(root.subtable("time").titled("[time]"));
+    scene.method.where = root.where();
+    if (root.has("method")) scene.method = read_method(root.subtable("method").titled("[method]"));
+    for (const TableReader& table : array_of_tables(root, "body")) scene.bodies.push_back(detail::read_body(table));
+    for (const TableReader& table : array_of_tables(root, "obstacle"))
+      scene.obstacles.push_back(detail::read_obstacle(table));
+    for (const TableReader& table : array_of_tables(root, "state")) scene.states.push_back(read_state(table));
+    for (const TableReader& table : array_of_tables(root, "event")) scene.events.push_back(read_event(table));
+    if (root.has("exact")) scene.exact = named_formulas(root.subtable("exact").titled("[exact]"));
+    if (scene.bodies.empty() && scene.states.empty())
+      throw InputError(root.where(), "nothing moves in this scene: a [[body]] or a [[state]] expected");
+    detail::check_names(scene);
+    return scene;
+  }
+
+ private:
+  TableReader reader(const toml::table& table, std::string title, SourceLocation where) const {
+    return {document_, table, std::move(title), std::move(where), dashed_names_};
+  }
+
+  /// Names with `-` must be known before the first expression is read.
+  void collect_dashed_names() {
+    const auto keep = [this](std::string_view name) {
+      if (name.find('-') != std::string_view::npos) dashed_names_.emplace_back(name);
+    };
+    for (const std::string_view group : {"body", "state"}) {
+      const toml::array* tables = document_.root()[group].as_array();
+      for (std::size_t i = 0; tables != nullptr && i < tables->size(); ++i) {
+        const toml::table* table = tables->get(i)->as_table();
+        if (table != nullptr) keep((*table)["name"].value_or(std::string_view()));
+      }
+    }
+    if (const toml::table* parameters = document_.root()["parameters"].as_table())
+      for (const auto& [key, node] : *parameters) keep(key.str());
+  }
+
+  std::vector<TableReader> array_of_tables(const TableReader& root, std::string_view key) const {
+    std::vector<TableReader> readers;
+    if (!root.has(key)) return readers;
+    const std::string title = "[[" + std::string(key) + "]]";
+    const toml::array* tables = root.table().get(key)->as_array();
+    if (tables == nullptr) root.fail(key, "an array of tables expected, write " + title);
+    for (const toml::node& node : *tables) {
+      if (!node.is_table()) throw InputError(document_.location(node), "a table expected, write " + title);
+      readers.push_back(reader(*node.as_table(), title, document_.location(node)));
+    }
+    return readers;
+  }
+
+  /// The keys of a table with a formula each. A table within gives names with a point: `ball.r = …`.
+  std::vector<NamedExpression> named_formulas(const TableReader& table, const std::string& prefix = "") const {
+    std::vector<NamedExpression> formulas;
+    for (const auto& [key, node] : detail::entries_in_file_order(table.table())) {
+      const std::string name = prefix + std::string(key->str());
+      if (node->is_table() && prefix.empty()) {
+        for (NamedExpression& part : named_formulas(table.subtable(key->str()), name + "."))
+          formulas.push_back(std::move(part));
+      } else {
+        formulas.push_back({name, table.formula(key->str()), document_.location(*key)});
+      }
+    }
+    return formulas;
+  }
+
+  static TimeOptions read_time(const TableReader& table) {
+    constexpr std::array<std::string_view, 3> kKeys{"start", "end", "sample"};
+    table.check_keys(kKeys);
+    TimeOptions time;
+    if (table.has("start")) time.start = table.scalar("start", kTime);
+    time.end = table.scalar("end", kTime);
+    time.sample = table.optional_scalar("sample", kTime);
+    return time;
+  }
+
+  static MethodOptions read_method(const TableReader& table) {
+    constexpr std::array<std::string_view, 9> kKeys{"name", "rtol",  "atol",        "step",  "steps",
+                                                    "order", "max_steps", "orientation", "locate"};
+    constexpr std::array<std::string_view, 3> kLocators{"polynomial", "interpolation", "subdivision"};
+    constexpr std::array<std::string_view, 1> kOrientations{"quaternion"};
+    table.check_keys(kKeys);
+    MethodOptions method;
+    method.where = table.where("name");
+    if (table.has("name")) method.name = table.text("name");
+    method.rtol = table.optional_scalar("rtol", kDimensionless);
+    method.atol = table.optional_scalar("atol", kDimensionless);
+    method.step = table.optional_scalar("step", kTime);
+    if (table.has("steps")) method.steps = table.scalar_list("steps", kTime);
+    if (method.step && !method.steps.empty()) table.fail("steps", "'step' or 'steps' expected, not both");
+    constexpr long kMaxOrder = 1000;  // far beyond any use; keeps it an int
+    const long order = table.whole_number("order", 0, 0);
+    if (order > kMaxOrder) table.fail("order", "an order of at most " + std::to_string(kMaxOrder) + " expected");
+    method.order = static_cast<int>(order);
+    method.max_steps = table.whole_number("max_steps", 1, method.max_steps);
+    table.choice("orientation", kOrientations, 0);
+    method.locate = std::array{Locator::polynomial, Locator::interpolation,
+                               Locator::subdivision}[table.choice("locate", kLocators, 0)];
+    return method;
+  }
+
+  static StateDefinition read_state(const TableReader& table) {
+    constexpr std::array<std::string_view, 3> kKeys{"name", "value", "rate"};
+    table.check_keys(kKeys);
+    return {table.text("name"), table.scalar("value", std::nullopt), table.scalar("rate", std::nullopt),
+            table.where("name")};
+  }
+
+  EventDefinition read_event(const TableReader& table) const {
+    constexpr std::array<std::string_view, 5> kKeys{"name", "when", "direction", "action", "set"};
+    constexpr std::array<std::string_view, 3> kDirections{"rising", "falling", "any"};
+    constexpr std::array<std::string_view, 3> kActions{"record", "stop", "set"};
+    table.check_keys(kKeys);
+    EventDefinition event{table.text("name"), table.scalar("when", std::nullopt), CrossingDirection::any,
+                          EventAction::record, {}, table.where("name")};
+    event.direction = std::array{CrossingDirection::rising, CrossingDirection::falling,
+                                 CrossingDirection::any}[table.choice("direction", kDirections, 2)];
+
+    // Both `set = {…}` and `action = {set = {…}}` are read.
+    const bool nested = table.has("action") && table.table().get("action")->is_table();
+    const TableReader holder = nested ? table.subtable("action") : table;
+    if (nested) holder.check_keys(std::array<std::string_view, 1>{"set"});
+    const std::size_t default_action = table.has("set") ? 2 : 0;
+    event.action = std::array{EventAction::record, EventAction::stop,
+                              EventAction::set}[nested ? 2 : table.choice("action", kActions, default_action)];
+    if (event.action == EventAction::set)
+      event.set = named_formulas(holder.subtable("set"));
+    else if (table.has("set"))
+      table.fail("set", "'set' does not go with action = \"" + table.text("action") + "\"");
+    return event;
+  }
+
+  TomlDocument document_;
+  std::vector<std::string> dashed_names_;
+};
+
+std::string read_text(const std::string& path) {
+  struct Close {
+    void operator()(std::FILE* file) const { std::fclose(file); }
+  };
+  const std::unique_ptr<std::FILE, Close> file(std::fopen(path.c_str(), "rb"));
+  if (file == nullptr) throw FileError("cannot open '" + path + "'");
+  std::string text;
+  char block[16384];
+  for (std::size_t count; (count = std::fread(block, 1, sizeof block, file.get())) > 0;) text.append(block, count);
+  if (std::ferror(file.get()) != 0) throw FileError("cannot read '" + path + "'");
+  return text;
+}
+
+}  // namespace
+
+Scene read_scene(const std::string& path) { return parse_scene(read_text(path), path); }
+
+Scene parse_scene(std::string text, const std::string& file) { return SceneReader(std::move(text), file).read(); }
+
+}  // namespace trajet

@@ -1,0 +1,139 @@
+#include "scene_solids.hpp"
+
+#include <array>
+
+namespace trajet::detail {
+
+namespace {
+
+using Keys = std::vector<std::string_view>;
+
+Keys operator+(Keys a, const Keys& b) {
+  a.insert(a.end(), b.begin(), b.end());
+  return a;
+}
+
+OrientationDefinition read_orientation(const TableReader& table) {
+  OrientationDefinition orientation;
+  orientation.where = table.where();
+  constexpr std::array<std::string_view, 4> kKeys{"axis", "angle", "quaternion", "matrix"};
+  table.check_keys(kKeys);
+  const bool by_angle = table.has("axis") || table.has("angle");
+  const int forms = int{by_angle} + int{table.has("quaternion")} + int{table.has("matrix")};
+  if (forms != 1)
+    throw InputError(table.where(), "an orientation is one of {axis, angle}, {quaternion}, {matrix}; got " +
+                                        std::string(forms == 0 ? "none" : "several"));
+  if (by_angle) {
+    orientation.axis = table.vector("axis", kDimensionless);
+    orientation.angle_rad = table.scalar("angle", kAngle);
+  } else if (table.has("quaternion")) {
+    orientation.quaternion = table.scalars("quaternion", 4, kDimensionless);
+  } else {
+    orientation.matrix = table.vectors("matrix", 3, kDimensionless);
+  }
+  return orientation;
+}
+
+PlaneDefinition read_plane(const TableReader& table) {
+  return {table.vector("point", kLength), table.vector("normal", kDimensionless)};
+}
+
+DiskDefinition read_disk(const TableReader& table) {
+  return {table.vector("center", kLength), table.vector("normal", kDimensionless), table.scalar("radius", kLength)};
+}
+
+RectangleDefinition read_rectangle(const TableReader& table) {
+  const std::vector<Expression> size = table.scalars("size", 2, kLength);
+  return {table.vector("center", kLength), table.vector("normal", kDimensionless), table.vector("up", kDimensionless),
+          size[0], size[1]};
+}
+
+TriangleDefinition read_triangle(const TableReader& table) {
+  const std::vector<Expression> points = table.vectors("points", 3, kLength);
+  return {points[0], points[1], points[2]};
+}
+
+SphereDefinition read_sphere(const TableReader& table) {
+  return {table.vector("center", kLength), table.scalar("radius", kLength)};
+}
+
+BoxDefinition read_box(const TableReader& table) {
+  BoxDefinition box{table.vector("center", kLength), table.vector("size", kLength)};
+  if (table.has("orientation")) box.orientation = read_orientation(table.subtable("orientation"));
+  return box;
+}
+
+/// Shapes of obstacles: one row each.
+struct ObstacleKind {
+  std::string_view name;
+  Keys keys;
+  ObstacleShape (*read)(const TableReader&);
+};
+
+const std::array<ObstacleKind, 6>& obstacle_kinds() {
+  static const std::array<ObstacleKind, 6> kinds{{
+      {"plane", {"point", "normal"}, [](const TableReader& t) { return ObstacleShape(read_plane(t)); }},
+      {"disk", {"center", "normal", "radius"}, [](const TableReader& t) { return ObstacleShape(read_disk(t)); }},
+      {"rectangle",
+       {"center", "normal", "up", "size"},
+       [](const TableReader& t) { return ObstacleShape(read_rectangle(t)); }},
+      {"triangle", {"points"}, [](const TableReader& t) { return ObstacleShape(read_triangle(t)); }},
+      {"sphere", {"center", "radius"}, [](const TableReader& t) { return ObstacleShape(read_sphere(t)); }},
+      {"box", {"center", "size", "orientation"}, [](const TableReader& t) { return ObstacleShape(read_box(t)); }},
+  }};
+  return kinds;
+}
+
+}  // namespace
+
+BodyDefinition read_body(const TableReader& table) {
+  const Keys common = {"name", "shape", "position", "velocity", "acceleration", "force", "mass", "position_rate"};
+  const Keys planned = {"orientation",     "angular_velocity",          "angular_velocity_body", "angular_acceleration",
+                        "torque",          "angular_acceleration_body", "torque_body",           "inertia",
+                        "density",         "points",                    "restitution",           "friction",
+                        "size",            "file",                      "scale"};
+  constexpr std::array<std::string_view, 2> kShapes{"point", "sphere"};
+  constexpr std::array<std::string_view, 4> kPlannedShapes{"box", "soccer-ball", "hull", "mesh"};
+  const bool is_sphere = table.choice("shape", kShapes, 0, kPlannedShapes) == 1;
+  if (!is_sphere && table.has("radius")) table.fail("radius", "a point has no radius; for one, write shape = \"sphere\"");
+  table.check_keys(common + (is_sphere ? Keys{"radius"} : Keys{}), planned);
+
+  BodyDefinition body;
+  body.where = table.where("name");
+  body.name = table.text("name");
+  if (is_sphere) body.shape = BallShape{table.scalar("radius", kLength)};
+  if (table.has("position")) body.position = table.vector("position", kLength);
+  if (table.has("velocity")) body.velocity = table.vector("velocity", kSpeed);
+  body.acceleration = table.optional_vector("acceleration", kAcceleration);
+  body.force = table.optional_vector("force", kForce);
+  body.mass = table.optional_scalar("mass", kMass);
+  body.position_rate = table.optional_vector("position_rate", kSpeed);
+  if (body.acceleration && body.force)
+    table.fail("force", "a body moves by its acceleration or by a force with a mass, not by both");
+  if (body.force && !body.mass) table.fail("force", "a force needs the key 'mass'");
+  return body;
+}
+
+ObstacleDefinition read_obstacle(const TableReader& table) {
+  std::vector<std::string_view> shapes;
+  for (const ObstacleKind& kind : obstacle_kinds()) shapes.push_back(kind.name);
+  constexpr std::array<std::string_view, 4> kPlannedShapes{"cylinder", "capsule", "hull", "mesh"};
+  if (!table.has("shape")) throw InputError(table.where(), table.title() + " lacks the key 'shape'");
+  const ObstacleKind& kind = obstacle_kinds()[table.choice("shape", shapes, 0, kPlannedShapes)];
+
+  const Keys common = {"name", "shape", "on_hit", "restitution"};
+  Keys planned = {"friction", "velocity", "angular_velocity", "file", "scale"};
+  const std::string with_shape = table.title() + " of shape " + std::string(kind.name);
+  TableReader titled = table.titled(with_shape);
+  titled.check_keys(common + kind.keys, planned);
+
+  constexpr std::array<std::string_view, 3> kOnHit{"stop", "bounce", "pass"};
+  constexpr std::array<std::string_view, 1> kPlannedOnHit{"stick"};
+  ObstacleDefinition obstacle{table.text("name"), kind.read(titled)};
+  obstacle.where = table.where("name");
+  obstacle.on_hit = std::array{OnHit::stop, OnHit::bounce, OnHit::pass}[table.choice("on_hit", kOnHit, 0, kPlannedOnHit)];
+  if (table.has("restitution")) obstacle.restitution = table.scalar("restitution", kDimensionless);
+  return obstacle;
+}
+
+}  // namespace trajet::detail

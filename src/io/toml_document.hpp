@@ -1,0 +1,54 @@
+#pragma once
+
+#include <toml++/toml.h>
+
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "trajet/error.hpp"
+
+namespace trajet::detail {
+
+/// A parsed TOML text that knows where in the file everything stands.
+class TomlDocument {
+ public:
+  /// Parses `text`; `file` names it in errors. Throws InputError where it is no TOML.
+  TomlDocument(std::string text, std::string file);
+
+  const toml::table& root() const { return root_; }
+  const std::string& file() const { return file_; }
+
+  SourceLocation location(const toml::node& node) const { return location(node.source().begin); }
+  SourceLocation location(const toml::key& key) const { return location(key.source().begin); }
+
+  /// Where the first character of a string's content stands, if the file has the content letter by letter; otherwise
+  /// (escape sequences) where the value stands, and `is_verbatim` is false.
+  struct TextLocation {
+    SourceLocation where;
+    bool is_verbatim = false;
+  };
+  TextLocation text_location(const toml::value<std::string>& value) const;
+
+ private:
+  SourceLocation location(const toml::source_position& position) const;
+  /// Offset in the text of a position that counts code points.
+  std::size_t offset(const toml::source_position& position) const;
+
+  std::string text_;
+  std::string file_;
+  std::vector<std::size_t> line_offsets_;
+  toml::table root_;
+};
+
+/// A key with its value.
+using TomlEntry = std::pair<const toml::key*, const toml::node*>;
+
+/// The entries of a table in the order of the file.
+std::vector<TomlEntry> entries_in_file_order(const toml::table& table);
+
+/// "a string", "an array", … for messages.
+std::string_view type_name(const toml::node& node);
+
+}  // namespace trajet::detail

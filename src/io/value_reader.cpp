@@ -1,0 +1,180 @@
+#include "value_reader.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "formula_text.hpp"
+#include "trajet/law/did_you_mean.hpp"
+
+namespace trajet::detail {
+
+namespace {
+
+std::string quote(std::string_view text) { return "'" + std::string(text) + "'"; }
+
+std::string join(std::span<const std::string_view> names) {
+  std::string text;
+  for (const std::string_view name : names) text += (text.empty() ? "" : ", ") + std::string(name);
+  return text;
+}
+
+std::string expected_scalar(std::optional<Dimension> expected) {
+  const std::string what = expected && *expected != kDimensionless ? describe(*expected) : "a number";
+  return what + " expected (a number, a quantity such as \"5 m/s\" or an expression)";
+}
+
+}  // namespace
+
+SourceLocation TableReader::where(std::string_view key) const {
+  const toml::node* node = table_.get(key);
+  return node == nullptr ? where_ : document_.location(*node);
+}
+
+void TableReader::check_keys(std::span<const std::string_view> allowed, std::span<const std::string_view> planned) const {
+  for (const auto& [key, node] : entries_in_file_order(table_)) {
+    const std::string_view name = key->str();
+    if (std::ranges::find(allowed, name) != allowed.end()) continue;
+    const SourceLocation where = document_.location(*key);
+    if (std::ranges::find(planned, name) != planned.end())
+      throw InputError(where, "the key " + quote(name) + " of " + title_ + " is not supported by this version of trajet, which knows: " +
+                                  join(allowed));
+    const std::string hint = did_you_mean(name, allowed);
+    throw InputError(where, "unknown key " + quote(name) + " in " + title_ +
+                                (hint.empty() ? ", expected one of: " + join(allowed) : hint));
+  }
+}
+
+void TableReader::fail(std::string_view key, const std::string& message) const { throw InputError(where(key), message); }
+
+void TableReader::fail_type(const toml::node& node, const std::string& expected) const {
+  throw InputError(document_.location(node), expected + ", got " + std::string(type_name(node)));
+}
+
+const toml::node& TableReader::required(std::string_view key) const {
+  const toml::node* node = table_.get(key);
+  if (node == nullptr) throw InputError(where_, title_ + " lacks the key " + quote(key));
+  return *node;
+}
+
+const toml::array& TableReader::array(std::string_view key, std::size_t count) const {
+  const toml::node& node = required(key);
+  const toml::array* array = node.as_array();
+  if (array == nullptr || array->size() != count) {
+    const std::string expected = quote(key) + ": an array of " + std::to_string(count) + " expected";
+    if (array != nullptr) fail(key, expected + ", got " + std::to_string(array->size()));
+    fail_type(node, expected);
+  }
+  return *array;
+}
+
+std::string TableReader::text(std::string_view key) const {
+  const toml::node& node = required(key);
+  if (!node.is_string()) fail_type(node, quote(key) + ": a string expected");
+  return node.as_string()->get();
+}
+
+long TableReader::whole_number(std::string_view key, long smallest, long default_value) const {
+  const toml::node* node = table_.get(key);
+  if (node == nullptr) return default_value;
+  const std::string expected = quote(key) + ": a whole number of at least " + std::to_string(smallest) + " expected";
+  if (!node->is_integer()) fail_type(*node, expected);
+  const std::int64_t value = node->as_integer()->get();
+  if (value < smallest) fail(key, expected + ", got " + std::to_string(value));
+  return static_cast<long>(value);
+}
+
+Expression TableReader::expression_of(const toml::value<std::string>& value, std::optional<Dimension> expected) const {
+  const TomlDocument::TextLocation place = document_.text_location(value);
+  try {
+    return read_formula(value.get(), place.where, dashed_names_, expected);
+  } catch (const InputError& error) {
+    // With escape sequences in between, a column counted in the content would point beside the fault.
+    if (place.is_verbatim) throw;
+    throw InputError(place.where, error.message());
+  }
+}
+
+Expression TableReader::scalar_of(const toml::node& node, std::optional<Dimension> expected) const {
+  if (node.is_string()) return expression_of(*node.as_string(), expected);
+  if (!node.is_number()) fail_type(node, expected_scalar(expected));
+  const SourceLocation where = document_.location(node);
+  const double number = *node.value<double>();
+  if (!std::isfinite(number)) throw InputError(where, "a finite number expected, got " + std::to_string(number));
+  return Expression::number(number, where);
+}
+
+Expression TableReader::vector_of(const toml::node& node, std::optional<Dimension> expected) const {
+  const std::string wanted = "a vector expected (an array of three or a vector expression)";
+  if (const toml::value<std::string>* value = node.as_string()) {
+    if (split_quantity(value->get())) fail_type(node, wanted + ", got a scalar quantity, not");
+    return expression_of(*value, expected);
+  }
+  const toml::array* array = node.as_array();
+  if (array == nullptr) fail_type(node, wanted);
+  if (array->size() != 3)
+    throw InputError(document_.location(node), wanted + ", got " + std::to_string(array->size()) + " elements");
+  return Expression::vector(scalar_of(*array->get(0), expected), scalar_of(*array->get(1), expected),
+                            scalar_of(*array->get(2), expected));
+}
+
+Expression TableReader::scalar(std::string_view key, std::optional<Dimension> expected) const {
+  return scalar_of(required(key), expected);
+}
+
+Expression TableReader::vector(std::string_view key, std::optional<Dimension> expected) const {
+  return vector_of(required(key), expected);
+}
+
+Expression TableReader::formula(std::string_view key) const {
+  const toml::node& node = required(key);
+  return node.is_array() ? vector_of(node, std::nullopt) : scalar_of(node, std::nullopt);
+}
+
+std::vector<Expression> TableReader::scalars(std::string_view key, std::size_t count, Dimension expected) const {
+  std::vector<Expression> values;
+  for (const toml::node& node : array(key, count)) values.push_back(scalar_of(node, expected));
+  return values;
+}
+
+std::vector<Expression> TableReader::vectors(std::string_view key, std::size_t count, Dimension expected) const {
+  std::vector<Expression> values;
+  for (const toml::node& node : array(key, count)) values.push_back(vector_of(node, expected));
+  return values;
+}
+
+std::vector<Expression> TableReader::scalar_list(std::string_view key, Dimension expected) const {
+  const toml::node& node = required(key);
+  const toml::array* array = node.as_array();
+  if (array == nullptr || array->empty()) fail_type(node, quote(key) + ": a non-empty array of numbers expected");
+  std::vector<Expression> values;
+  for (const toml::node& element : *array) values.push_back(scalar_of(element, expected));
+  return values;
+}
+
+TableReader TableReader::subtable(std::string_view key) const {
+  const toml::node& node = required(key);
+  if (!node.is_table()) fail_type(node, quote(key) + ": a table expected");
+  return {document_, *node.as_table(), quote(key), document_.location(node), dashed_names_};
+}
+
+std::optional<Expression> TableReader::optional_scalar(std::string_view key, Dimension expected) const {
+  return has(key) ? std::optional(scalar(key, expected)) : std::nullopt;
+}
+
+std::optional<Expression> TableReader::optional_vector(std::string_view key, Dimension expected) const {
+  return has(key) ? std::optional(vector(key, expected)) : std::nullopt;
+}
+
+std::size_t TableReader::choice(std::string_view key, std::span<const std::string_view> choices,
+                                std::size_t default_choice, std::span<const std::string_view> planned) const {
+  if (!has(key)) return default_choice;
+  const std::string word = text(key);
+  const auto found = std::ranges::find(choices, word);
+  if (found != choices.end()) return static_cast<std::size_t>(found - choices.begin());
+  if (std::ranges::find(planned, word) != planned.end())
+    fail(key, std::string(key) + " = \"" + word + "\" is not supported by this version of trajet, which knows: " + join(choices));
+  fail(key, "unknown " + std::string(key) + " " + quote(word) + ", expected one of: " + join(choices) +
+                did_you_mean(word, choices));
+}
+
+}  // namespace trajet::detail

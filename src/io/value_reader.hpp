@@ -1,0 +1,75 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "toml_document.hpp"
+#include "trajet/io/units.hpp"
+#include "trajet/law/expression.hpp"
+
+namespace trajet::detail {
+
+/// One table of a scene file: typed access to its values, every fault an InputError at its place.
+class TableReader {
+ public:
+  /// `title` names the table in messages: `[time]`, `[[body]]`. `dashed_names`: names with `-` that expressions may use.
+  TableReader(const TomlDocument& document, const toml::table& table, std::string title, SourceLocation where,
+              std::span<const std::string> dashed_names)
+      : document_(document), table_(table), title_(std::move(title)), where_(where), dashed_names_(dashed_names) {}
+
+  /// The same table under another title.
+  TableReader titled(std::string title) const { return {document_, table_, std::move(title), where_, dashed_names_}; }
+
+  const std::string& title() const { return title_; }
+  const toml::table& table() const { return table_; }
+  /// Of the table.
+  const SourceLocation& where() const { return where_; }
+  /// Of the value of `key`, or of the table if there is none.
+  SourceLocation where(std::string_view key) const;
+
+  /// Throws at the first key that is not `allowed`. Keys `planned` are in the description of the format, but not in this
+  /// version of the program.
+  void check_keys(std::span<const std::string_view> allowed, std::span<const std::string_view> planned = {}) const;
+
+  bool has(std::string_view key) const { return table_.contains(key); }
+  [[noreturn]] void fail(std::string_view key, const std::string& message) const;
+
+  // Each throws if the key is missing, unless there is a default.
+  std::string text(std::string_view key) const;
+  long whole_number(std::string_view key, long smallest, long default_value) const;
+  Expression scalar(std::string_view key, std::optional<Dimension> expected) const;
+  Expression vector(std::string_view key, std::optional<Dimension> expected) const;
+  /// A scalar or a vector.
+  Expression formula(std::string_view key) const;
+  std::vector<Expression> scalars(std::string_view key, std::size_t count, Dimension expected) const;
+  std::vector<Expression> vectors(std::string_view key, std::size_t count, Dimension expected) const;
+  /// Any number of scalars, at least one.
+  std::vector<Expression> scalar_list(std::string_view key, Dimension expected) const;
+  TableReader subtable(std::string_view key) const;
+
+  std::optional<Expression> optional_scalar(std::string_view key, Dimension expected) const;
+  std::optional<Expression> optional_vector(std::string_view key, Dimension expected) const;
+
+  /// The index among `choices` of the word that `key` holds, or `default_choice`. Words `planned` are not in this version.
+  std::size_t choice(std::string_view key, std::span<const std::string_view> choices, std::size_t default_choice,
+                     std::span<const std::string_view> planned = {}) const;
+
+ private:
+  const toml::node& required(std::string_view key) const;
+  const toml::array& array(std::string_view key, std::size_t count) const;
+  Expression scalar_of(const toml::node& node, std::optional<Dimension> expected) const;
+  Expression vector_of(const toml::node& node, std::optional<Dimension> expected) const;
+  Expression expression_of(const toml::value<std::string>& value, std::optional<Dimension> expected) const;
+  [[noreturn]] void fail_type(const toml::node& node, const std::string& expected) const;
+
+  const TomlDocument& document_;
+  const toml::table& table_;
+  std::string title_;
+  SourceLocation where_;
+  std::span<const std::string> dashed_names_;
+};
+
+}  // namespace trajet::detail
