@@ -1,0 +1,61 @@
+#include "trajet/io/csv_writer.hpp"
+
+#include <fmt/compile.h>
+#include <fmt/format.h>
+
+#include <iterator>
+
+namespace trajet {
+
+namespace {
+
+constexpr std::string_view kHeader = "t,body,x,y,z,vx,vy,vz,ax,ay,az,qw,qx,qy,qz,wx,wy,wz";
+/// Points and spheres do not turn: q_WB = (1, 0, 0, 0), w_WB = 0.
+constexpr std::string_view kNoRotation = ",1,0,0,0,0,0,0";
+constexpr std::string_view kNoBody = ",,,,,,,,,,,,,,,,,";
+
+void append(std::string& text, double value) { fmt::format_to(std::back_inserter(text), FMT_COMPILE("{}"), value); }
+
+void append(std::string& text, const Vector3& v) {
+  for (const double value : v) {
+    text += ',';
+    append(text, value);
+  }
+}
+
+}  // namespace
+
+void CsvWriter::sample(const Sample& sample) {
+  rows_.clear();
+  if (!has_header_) {
+    rows_ += kHeader;
+    for (const NamedValue& state : sample.states) rows_ += "," + state.name;
+    rows_ += '\n';
+    has_header_ = true;
+  }
+  const auto append_states = [&] {
+    for (const NamedValue& state : sample.states) {
+      rows_ += ',';
+      append(rows_, state.value);
+    }
+    rows_ += '\n';
+  };
+  for (const BodyState& body : sample.bodies) {
+    append(rows_, sample.time);
+    rows_ += ',';
+    rows_ += body.body;
+    append(rows_, body.position);
+    append(rows_, body.velocity);
+    append(rows_, body.acceleration);
+    rows_ += kNoRotation;
+    append_states();
+  }
+  if (sample.bodies.empty()) {
+    append(rows_, sample.time);
+    rows_ += kNoBody;
+    append_states();
+  }
+  file_.write(rows_);
+}
+
+}  // namespace trajet

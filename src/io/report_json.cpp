@@ -1,0 +1,93 @@
+#include "trajet/io/report_json.hpp"
+
+#include <array>
+#include <nlohmann/json.hpp>
+
+#include "trajet/io/names.hpp"
+#include "trajet/version.hpp"
+
+namespace trajet {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json array(const Vector3& v) { return {v.x(), v.y(), v.z()}; }
+
+Json array(const Matrix3& m) { return {array(Vector3(m.row(0))), array(Vector3(m.row(1))), array(Vector3(m.row(2)))}; }
+
+Json array(const Quaternion& q) { return {q.w(), q.x(), q.y(), q.z()}; }
+
+Json object(const std::vector<NamedValue>& values) {
+  Json json = Json::object();
+  for (const NamedValue& value : values) json[value.name] = value.value;
+  return json;
+}
+
+Json object(const Impact& impact) {
+  // The shapes of this version, points and spheres without friction, do not turn.
+  const Vector3 at_rest = Vector3::Zero();
+  return {{"time", impact.time},
+          {"body", impact.body},
+          {"with", impact.with},
+          {"kind", name(impact.kind)},
+          {"point", array(impact.point)},
+          {"normal", array(impact.normal)},
+          {"position", array(impact.position)},
+          {"velocity_before", array(impact.velocity_before)},
+          {"velocity_after", array(impact.velocity_after)},
+          {"angular_velocity_before", array(at_rest)},
+          {"angular_velocity_after", array(at_rest)},
+          {"impulse", array(impact.impulse)},
+          {"time_error_bound", impact.time_error_bound}};
+}
+
+Json object(const EventRecord& event) {
+  return {{"time", event.time}, {"event", event.event}, {"direction", event.direction < 0 ? "falling" : "rising"}};
+}
+
+Json object(const BodyState& state) {
+  const Quaternion q_WB = Quaternion::Identity();
+  return {{"body", state.body},
+          {"position", array(state.position)},
+          {"velocity", array(state.velocity)},
+          {"acceleration", array(state.acceleration)},
+          {"orientation", array(q_WB)},
+          {"rotation_matrix", array(q_WB.toRotationMatrix())},
+          {"angular_velocity", array(Vector3(Vector3::Zero()))},
+          {"points", Json::object()}};
+}
+
+template <class T>
+Json array(const std::vector<T>& items) {
+  Json json = Json::array();
+  for (const T& item : items) json.push_back(object(item));
+  return json;
+}
+
+}  // namespace
+
+std::string report_json(const RunResult& result) {
+  Json json = {{"trajet", kVersion},
+               {"scene", result.scene},
+               {"title", result.title},
+               {"method", result.method},
+               {"status", name(result.status)}};
+  if (result.status == RunStatus::failed) json["failure"] = result.failure;
+  json["start_time"] = result.start_time;
+  json["end_time"] = result.end_time;
+  json["parameters"] = object(result.parameters);
+  json["impacts"] = array(result.impacts);
+  json["events"] = array(result.events);
+  json["final"] = array(result.final.bodies);
+  json["states"] = object(result.final.states);
+  json["warnings"] = result.warnings;
+  json["statistics"] = {{"steps", result.statistics.steps},
+                        {"rejected_steps", result.statistics.rejected_steps},
+                        {"law_evaluations", result.statistics.law_evaluations},
+                        {"wall_seconds", result.statistics.wall_seconds}};
+  // A file name may hold bytes that are no UTF-8.
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace trajet

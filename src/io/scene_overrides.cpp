@@ -1,0 +1,58 @@
+#include "trajet/io/scene_overrides.hpp"
+
+#include <algorithm>
+#include <string_view>
+
+#include "formula_text.hpp"
+#include "trajet/law/did_you_mean.hpp"
+
+namespace trajet {
+
+namespace {
+
+std::vector<std::string> dashed_names(const Scene& scene) {
+  std::vector<std::string> names;
+  const auto keep = [&](const std::string& name) {
+    if (name.find('-') != std::string::npos) names.push_back(name);
+  };
+  for (const NamedExpression& parameter : scene.parameters) keep(parameter.name);
+  return names;
+}
+
+void set_parameter(const std::string& assignment, Scene& scene) {
+  const std::size_t equals = assignment.find('=');
+  if (equals == std::string::npos)
+    throw InputError({"--set"}, "NAME=VALUE expected, got '" + assignment + "'");
+  const std::string name = assignment.substr(0, equals);
+  const auto parameter = std::ranges::find(scene.parameters, name, &NamedExpression::name);
+  if (parameter == scene.parameters.end()) {
+    std::vector<std::string_view> known;
+    for (const NamedExpression& candidate : scene.parameters) known.push_back(candidate.name);
+    throw InputError({"--set " + name}, "the scene has no parameter '" + name + "'" + did_you_mean(name, known));
+  }
+  const std::string_view value = std::string_view(assignment).substr(equals + 1);
+  parameter->where = {"--set " + name};
+  parameter->value = detail::read_formula(value, parameter->where, dashed_names(scene), std::nullopt);
+}
+
+}  // namespace
+
+void apply(const SceneOverrides& overrides, Scene& scene) {
+  for (const std::string& assignment : overrides.parameters) set_parameter(assignment, scene);
+  const std::vector<std::string> dashed = dashed_names(scene);
+  const auto replace = [&](std::optional<Expression>& target, const std::optional<std::string>& text, const char* option,
+                           Dimension dimension) {
+    if (text) target = detail::read_formula(*text, {option}, dashed, dimension);
+  };
+  replace(scene.time.end, overrides.end, "--end", kTime);
+  replace(scene.method.step, overrides.step, "--step", kTime);
+  replace(scene.method.rtol, overrides.rtol, "--rtol", kDimensionless);
+  replace(scene.method.atol, overrides.atol, "--atol", kDimensionless);
+  if (overrides.step) scene.method.steps.clear();
+  if (overrides.method) {
+    scene.method.name = *overrides.method;
+    scene.method.where = {"--method"};
+  }
+}
+
+}  // namespace trajet
