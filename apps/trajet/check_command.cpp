@@ -1,0 +1,22 @@
+#include <fmt/format.h>
+
+#include "commands.hpp"
+#include "trajet/io/output_file.hpp"
+#include "trajet/io/scene_file.hpp"
+#include "trajet/sim/run.hpp"
+
+namespace trajet {
+
+int check_command(const RunArguments& arguments) {
+  Scene scene = read_scene(arguments.scene);
+  apply(arguments.overrides, scene);
+  check(scene);
+  if (arguments.quiet) return kDone;
+  OutputFile out("-");
+  out.write(fmt::format("{}: valid; bodies: {}, obstacles: {}, extra states: {}, events: {}\n", arguments.scene,
+                        scene.bodies.size(), scene.obstacles.size(), scene.states.size(), scene.events.size()));
+  out.finish();
+  return kDone;
+}
+
+}  // namespace trajet

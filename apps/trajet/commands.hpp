@@ -1,0 +1,35 @@
+#pragma once
+
+#include <string>
+
+#include "trajet/io/scene_overrides.hpp"
+
+namespace trajet {
+
+/// How the program ends; docs/formats/report.md lists what each code means.
+enum ExitCode : int {
+  kDone = 0,
+  kWrongCommandLine = 2,
+  kWrongScene = 3,
+  kNumbersFailed = 4,
+  kFileFailed = 5,
+  kInterrupted = 130,
+};
+
+/// What `trajet run` and `trajet check` take from the command line.
+struct RunArguments {
+  std::string scene;
+  SceneOverrides overrides;
+  std::string json;  ///< file name, `-` for standard output, empty for none
+  std::string csv;   ///< likewise
+  bool quiet = false;
+};
+
+// One function per command. They throw InputError and FileError; `main` turns these into exit codes.
+int run_command(const RunArguments& arguments);
+int check_command(const RunArguments& arguments);
+int methods_command();
+/// Lists the built-in scenes, or prints the one of that name.
+int examples_command(const std::string& name);
+
+}  // namespace trajet

@@ -1,0 +1,31 @@
+#include <fmt/format.h>
+
+#include <vector>
+
+#include "commands.hpp"
+#include "example_scenes.hpp"
+#include "trajet/io/output_file.hpp"
+#include "trajet/io/scene_file.hpp"
+#include "trajet/law/did_you_mean.hpp"
+
+namespace trajet {
+
+int examples_command(const std::string& name) {
+  std::string text;
+  std::vector<std::string_view> names;
+  for (const ExampleScene& example : example_scenes()) {
+    names.push_back(example.name);
+    if (name.empty())
+      text += fmt::format("{:<24} {}\n", example.name, parse_scene(std::string(example.text), std::string(example.name)).title);
+    else if (example.name == name)
+      text = example.text;
+  }
+  if (text.empty() && !name.empty())
+    throw InputError({"trajet"}, "there is no built-in scene '" + name + "', see 'trajet examples'" + did_you_mean(name, names));
+  OutputFile out("-");
+  out.write(text);
+  out.finish();
+  return kDone;
+}
+
+}  // namespace trajet

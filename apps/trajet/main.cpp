@@ -1,0 +1,91 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <exception>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "commands.hpp"
+#include "trajet/error.hpp"
+#include "trajet/law/did_you_mean.hpp"
+#include "trajet/version.hpp"
+
+namespace trajet {
+namespace {
+
+void add_scene_options(CLI::App& command, RunArguments& arguments) {
+  command.add_option("SCENE", arguments.scene, "scene file (TOML)")->required();
+  SceneOverrides& overrides = arguments.overrides;
+  command.add_option("--set", overrides.parameters, "replace a parameter, NAME=VALUE; repeatable")
+      ->type_name("NAME=VALUE")
+      ->allow_extra_args(false);
+  command.add_option("--method", overrides.method, "integration method, see 'trajet methods'")->type_name("NAME");
+  command.add_option("--step", overrides.step, "step of a fixed-step method, \"10 ms\"")->type_name("DT");
+  command.add_option("--rtol", overrides.rtol, "relative tolerance")->type_name("X");
+  command.add_option("--atol", overrides.atol, "absolute tolerance")->type_name("X");
+  command.add_option("--end", overrides.end, "end time, \"5 s\"")->type_name("T");
+  command.add_flag("--quiet", arguments.quiet, "no summary");
+}
+
+/// An unknown command gets a better answer than CLI11's; options are left to it.
+void check_command_name(const std::vector<std::string_view>& commands, int argc, char** argv) {
+  if (argc < 2) return;
+  const std::string_view word = argv[1];
+  for (const std::string_view command : commands)
+    if (word == command) return;
+  if (word.starts_with('-')) return;
+  throw InputError({"trajet"}, "unknown command '" + std::string(word) + "', see 'trajet --help'" + did_you_mean(word, commands));
+}
+
+int run_program(int argc, char** argv) {
+  CLI::App app("trajet: the motion of particles, with the exact time and place of every impact");
+  app.set_version_flag("--version", std::string("trajet ") + kVersion);
+  app.require_subcommand(1);
+
+  RunArguments arguments;
+  std::string example;
+  CLI::App& run = *app.add_subcommand("run", "compute one motion");
+  add_scene_options(run, arguments);
+  run.add_option("--json", arguments.json, "write the report there, - for standard output")->type_name("FILE");
+  run.add_option("--csv", arguments.csv, "write the samples there, - for standard output")->type_name("FILE");
+  CLI::App& check = *app.add_subcommand("check", "validate a scene without running it");
+  add_scene_options(check, arguments);
+  CLI::App& methods = *app.add_subcommand("methods", "list the integration methods");
+  CLI::App& examples = *app.add_subcommand("examples", "list the built-in scenes, or print one");
+  examples.add_option("NAME", example, "the scene to print");
+
+  check_command_name({"run", "check", "methods", "examples"}, argc, argv);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success& success) {  // --help, --version
+    return app.exit(success);
+  } catch (const CLI::ParseError& error) {
+    app.exit(error);
+    return kWrongCommandLine;
+  }
+  if (run) return run_command(arguments);
+  if (check) return check_command(arguments);
+  if (methods) return methods_command();
+  return examples_command(example);
+}
+
+}  // namespace
+}  // namespace trajet
+
+int main(int argc, char** argv) {
+  try {
+    return trajet::run_program(argc, argv);
+  } catch (const trajet::InputError& error) {
+    fmt::print(stderr, "{}\n", error.what());
+    // A fault whose place is an option or the program's name stands in the command line, not in the scene.
+    const std::string& place = error.where().file;
+    return place.starts_with("--") || place == "trajet" ? trajet::kWrongCommandLine : trajet::kWrongScene;
+  } catch (const trajet::FileError& error) {
+    fmt::print(stderr, "error: {}\n", error.what());
+    return trajet::kFileFailed;
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "error: the program failed: {}\n", error.what());
+    return trajet::kNumbersFailed;
+  }
+}

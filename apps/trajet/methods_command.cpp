@@ -1,0 +1,25 @@
+#include <fmt/format.h>
+
+#include "commands.hpp"
+#include "trajet/io/output_file.hpp"
+#include "trajet/ode/registry.hpp"
+
+namespace trajet {
+
+int methods_command() {
+  const auto order = [](int value) { return value == 0 ? std::string("tolerance") : fmt::format("{}", value); };
+  constexpr const char* kRow = "{:<10} {:<22} {:<10} {:<10} {:<10} {}\n";
+  std::string text = fmt::format(kRow, "name", "aliases", "order", "dense", "step", "known as");
+  for (const MethodInfo& method : methods()) {
+    const char* control = method.control == StepControl::fixed ? "given" : "adaptive";
+    text += fmt::format(kRow, method.name, fmt::join(method.aliases, ", "), order(method.order), order(method.dense_order),
+                        control, method.known_as);
+    text += fmt::format("{:<10} {}\n", "", method.summary);
+  }
+  OutputFile out("-");
+  out.write(text);
+  out.finish();
+  return kDone;
+}
+
+}  // namespace trajet

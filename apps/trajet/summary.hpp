@@ -1,0 +1,12 @@
+#pragma once
+
+#include <string>
+
+#include "trajet/sim/run_result.hpp"
+
+namespace trajet {
+
+/// What a person wants to know of a run: how it ended, what was hit, when, where, how fast, and what it cost.
+std::string summary(const RunResult& result, bool color);
+
+}  // namespace trajet

@@ -1,0 +1,25 @@
+#include "terminal.hpp"
+
+#include <unistd.h>
+
+#include <cstdlib>
+
+namespace trajet {
+
+bool is_terminal(std::FILE* stream) { return isatty(fileno(stream)) != 0; }
+
+bool wants_color(std::FILE* stream) {
+  const char* no_color = std::getenv("NO_COLOR");
+  return (no_color == nullptr || *no_color == '\0') && is_terminal(stream);
+}
+
+std::string styled(std::string_view text, Style style, bool color) {
+  if (!color || style == Style::plain) return std::string(text);
+  const char* begin = style == Style::bold     ? "\033[1m"
+                      : style == Style::green  ? "\033[32m"
+                      : style == Style::yellow ? "\033[33m"
+                                               : "\033[31m";
+  return begin + std::string(text) + "\033[0m";
+}
+
+}  // namespace trajet
