@@ -1,0 +1,22 @@
+#pragma once
+
+#include <span>
+
+namespace trajet {
+
+/// When a function that decides a law's branch changes sign.
+struct BranchTime {
+  double duration;    ///< from the point of expansion, signed like the search; the whole search where nothing was found
+  int index;          ///< which function: >= 0 where a change was found, else negative
+  double sign_after;  ///< behind the change
+};
+
+/// The first time from 0 to `duration` (of either sign) at which the function f(t) = sum_k series[k] t^k leaves the sign
+/// that a law has counted on.
+///
+/// \param sign            -1, 0 or 1: the sign counted on. 0 stays true only of a function that vanishes.
+/// \param starts_at_zero  f(0) is zero but for rounding: the search has just come from a root there.
+/// \return index 0 and the time of the change, which is 0 where the sign just behind the start is another one already.
+BranchTime first_sign_change(std::span<const double> series, double sign, bool starts_at_zero, double duration);
+
+}  // namespace trajet

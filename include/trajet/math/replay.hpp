@@ -1,0 +1,222 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "trajet/math/force_inline.hpp"
+#include "trajet/math/recurrences.hpp"
+
+namespace trajet {
+
+/// The power series of everything that a law computes, one slot of coefficients per operation, filled one order at a time.
+///
+/// A law is called once per order on `Replay` numbers. Each operation, in the order in which the law performs them, owns the
+/// next slot and computes only its coefficient of the current order, from the slots of its operands: an expansion of order N
+/// costs O(N^2) per operation. Once the law is inlined, the slots' addresses are constants.
+template <class T>
+class ReplayTape {
+ public:
+  static constexpr int kMaxOrder = 30;
+  /// Coefficients of a slot, then one place for what an operation keeps between orders.
+  static constexpr int kStride = kMaxOrder + 2;
+
+  /// A point where a law may take another branch: the slot of the function whose sign decides, and the sign taken.
+  struct Branch {
+    int slot;
+    double sign;
+  };
+
+  T* slot(int index) { return storage_.data() + static_cast<std::ptrdiff_t>(index) * kStride; }
+  const T* slot(int index) const { return storage_.data() + static_cast<std::ptrdiff_t>(index) * kStride; }
+  int capacity() const { return static_cast<int>(storage_.size()) / kStride; }
+  void grow(int slots) { storage_.resize(static_cast<std::size_t>(slots) * kStride); }
+
+  /// The branches met by the last replay of order 0, in order.
+  std::vector<Branch>& branches() { return branches_; }
+  /// Signs to take instead of those of the values, by the branch's index; 0: look at the value.
+  std::vector<double>& forced_signs() { return forced_signs_; }
+
+ private:
+  std::vector<T> storage_;
+  std::vector<Branch> branches_;
+  std::vector<double> forced_signs_;
+};
+
+/// One pass of a law over a tape: the next free slot.
+template <class T>
+struct ReplayPass {
+  ReplayTape<T>* tape;
+  T* base;  ///< slot 0
+  int next_slot;
+  int next_branch = 0;
+  /// Slots of `base`. An order-0 pass that needs more only counts them, in `next_slot`, and is run again.
+  int capacity;
+
+  TRAJET_INLINE T* slot(int index) const { return base + static_cast<std::ptrdiff_t>(index) * ReplayTape<T>::kStride; }
+};
+
+/// The number type that a law meets during the replay of order N: a slot of the tape, or a constant.
+template <class T, int N>
+class Replay {
+ public:
+  static constexpr std::integral_constant<int, N> kOrder{};
+
+  Replay() = default;
+  TRAJET_INLINE Replay(double constant) : constant_(constant) {}  // NOLINT(google-explicit-constructor)
+  TRAJET_INLINE Replay(ReplayPass<T>* pass, int slot) : pass_(pass), slot_(slot) {}
+
+  TRAJET_INLINE bool is_constant() const { return pass_ == nullptr; }
+  TRAJET_INLINE double constant() const { return constant_; }
+  TRAJET_INLINE ReplayPass<T>* pass() const { return pass_; }
+  TRAJET_INLINE int slot() const { return slot_; }
+
+  /// The coefficient of the current order.
+  TRAJET_INLINE T newest() const {
+    if (is_constant()) return T(constant_);
+    return pass_->slot(slot_)[N];
+  }
+  /// That of a constant is zero beyond order 0.
+  TRAJET_INLINE T coefficient() const {
+    if (is_constant()) return T(0.0);
+    return pass_->slot(slot_)[N];
+  }
+
+  TRAJET_INLINE Replay& operator+=(const Replay& b) { return *this = *this + b; }
+  TRAJET_INLINE Replay& operator-=(const Replay& b) { return *this = *this - b; }
+  TRAJET_INLINE Replay& operator*=(const Replay& b) { return *this = *this * b; }
+  TRAJET_INLINE Replay& operator/=(const Replay& b) { return *this = *this / b; }
+
+  /// The next slot of the tape, whose newest coefficient is `compute(coefficients of the slot)`.
+  template <class Compute>
+  TRAJET_INLINE static Replay record(ReplayPass<T>* pass, const Compute& compute) {
+    const int slot = pass->next_slot++;
+    if (N == 0 && slot >= pass->capacity) [[unlikely]]
+      return Replay(pass, 0);
+    T* coefficients = pass->slot(slot);
+    coefficients[N] = compute(coefficients);
+    return Replay(pass, slot);
+  }
+
+  /// Two slots of functions that are computed together by `compute(first, second)`; returns the first.
+  template <class Compute>
+  TRAJET_INLINE static Replay record_pair(ReplayPass<T>* pass, const Compute& compute) {
+    const int slot = pass->next_slot;
+    pass->next_slot += 2;
+    if (N == 0 && slot + 1 >= pass->capacity) [[unlikely]]
+      return Replay(pass, 0);
+    compute(pass->slot(slot), pass->slot(slot + 1));
+    return Replay(pass, slot);
+  }
+
+  friend TRAJET_INLINE Replay operator-(const Replay& a) {
+    if (a.is_constant()) return Replay(-a.constant_);
+    return record(a.pass_, [&](T*) { return -a.newest(); });
+  }
+  friend TRAJET_INLINE Replay operator+(const Replay& a, const Replay& b) {
+    if (a.is_constant() && b.is_constant()) return Replay(a.constant_ + b.constant_);
+    if (a.is_constant()) return b + a;
+    if (b.is_constant()) return record(a.pass_, [&](T*) { return N == 0 ? a.newest() + b.constant_ : a.newest(); });
+    return record(a.pass_, [&](T*) { return a.newest() + b.newest(); });
+  }
+  friend TRAJET_INLINE Replay operator-(const Replay& a, const Replay& b) {
+    if (a.is_constant() && b.is_constant()) return Replay(a.constant_ - b.constant_);
+    if (b.is_constant()) return a + Replay(-b.constant_);
+    if (a.is_constant()) return record(b.pass_, [&](T*) { return N == 0 ? a.constant_ - b.newest() : -b.newest(); });
+    return record(a.pass_, [&](T*) { return a.newest() - b.newest(); });
+  }
+  friend TRAJET_INLINE Replay operator*(const Replay& a, const Replay& b) {
+    if (a.is_constant() && b.is_constant()) return Replay(a.constant_ * b.constant_);
+    if (b.is_constant()) return record(a.pass_, [&](T*) { return a.newest() * b.constant_; });
+    if (a.is_constant()) return b * a;
+    if (a.slot_ == b.slot_)
+      return record(a.pass_, [&](T*) { return recurrence::square<T>(a.pass_->slot(a.slot_), kOrder); });
+    return record(a.pass_, [&](T*) {
+      return recurrence::multiply<T>(a.pass_->slot(a.slot_), b.pass_->slot(b.slot_), kOrder);
+    });
+  }
+  friend TRAJET_INLINE Replay operator/(const Replay& a, const Replay& b) {
+    if (b.is_constant()) {
+      if (a.is_constant()) return Replay(a.constant_ / b.constant_);
+      return record(a.pass_, [&](T*) { return a.newest() / b.constant_; });
+    }
+    return record(b.pass_, [&](T* c) {
+      const T a_n = N == 0 ? a.newest() : a.coefficient();
+      return recurrence::divide<T>(a_n, b.pass_->slot(b.slot_), c, kOrder);
+    });
+  }
+
+ private:
+  ReplayPass<T>* pass_ = nullptr;
+  int slot_ = -1;
+  double constant_ = 0.0;
+};
+
+namespace detail {
+
+/// The sign on which a branch is decided; records where its function lives. Only at order 0 is anything decided: later
+/// orders repeat that decision, whatever has become of the values.
+template <class T, int N>
+TRAJET_INLINE double branch_sign(const Replay<T, N>& x) {
+  ReplayPass<T>* pass = x.pass();
+  ReplayTape<T>& tape = *pass->tape;
+  const auto index = static_cast<std::size_t>(pass->next_branch++);
+  if (N > 0) return tape.branches()[index].sign;
+  double value = trajet::sign(pass->slot(x.slot())[0]);
+  if (index < tape.forced_signs().size() && tape.forced_signs()[index] != 0.0) value = tape.forced_signs()[index];
+  tape.branches().push_back({x.slot(), value});
+  return value;
+}
+
+template <class T, int N>
+TRAJET_INLINE double comparison_sign(const Replay<T, N>& a, const Replay<T, N>& b) {
+  const Replay<T, N> difference = a - b;
+  if (difference.is_constant()) return trajet::sign(difference.constant());
+  return branch_sign(difference);
+}
+
+}  // namespace detail
+
+template <class T, int N>
+TRAJET_INLINE bool operator<(const Replay<T, N>& a, const Replay<T, N>& b) {
+  return detail::comparison_sign(a, b) < 0.0;
+}
+template <class T, int N>
+TRAJET_INLINE bool operator>(const Replay<T, N>& a, const Replay<T, N>& b) {
+  return detail::comparison_sign(a, b) > 0.0;
+}
+template <class T, int N>
+TRAJET_INLINE bool operator<=(const Replay<T, N>& a, const Replay<T, N>& b) {
+  return detail::comparison_sign(a, b) <= 0.0;
+}
+template <class T, int N>
+TRAJET_INLINE bool operator>=(const Replay<T, N>& a, const Replay<T, N>& b) {
+  return detail::comparison_sign(a, b) >= 0.0;
+}
+template <class T, int N>
+TRAJET_INLINE bool operator==(const Replay<T, N>& a, const Replay<T, N>& b) {
+  return detail::comparison_sign(a, b) == 0.0;
+}
+template <class T, int N>
+TRAJET_INLINE bool less(const Replay<T, N>& a, const Replay<T, N>& b) {
+  return a < b;
+}
+template <class T, int N>
+TRAJET_INLINE bool less_equal(const Replay<T, N>& a, const Replay<T, N>& b) {
+  return a <= b;
+}
+template <class T, int N>
+TRAJET_INLINE Replay<T, N> where(bool condition, const Replay<T, N>& a, const Replay<T, N>& b) {
+  return condition ? a : b;
+}
+
+}  // namespace trajet
+
+/// Eigen vectors of Replay numbers.
+template <class T, int N>
+struct Eigen::NumTraits<trajet::Replay<T, N>> : Eigen::GenericNumTraits<double> {
+  using Real = trajet::Replay<T, N>;
+  using NonInteger = Real;
+  using Nested = Real;
+  using Literal = double;
+  enum { IsComplex = 0, IsInteger = 0, IsSigned = 1, RequireInitialization = 1, ReadCost = 1, AddCost = 4, MulCost = 16 };
+};

@@ -1,0 +1,221 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <utility>
+
+#include "trajet/ode/law_expansion.hpp"
+#include "trajet/ode/runge_kutta.hpp"
+#include "trajet/ode/segment.hpp"
+#include "trajet/ode/step_control.hpp"
+#include "trajet/ode/stepper.hpp"
+#include "trajet/ode/system.hpp"
+
+namespace trajet {
+
+/// The highest order of the series method.
+inline constexpr int kMaxTaylorOrder = ReplayTape<double>::kMaxOrder;
+
+/// The order of a power series that meets a relative tolerance at the least cost: ln(1/tolerance)/2 + 1, since terms fall by
+/// e^2 at the best step [JorbaZou2005] §3.2.
+inline int taylor_order(double rtol) {
+  const double tolerance = std::clamp(rtol, std::numeric_limits<double>::epsilon() / 2, 1e-2);
+  return static_cast<int>(std::ceil(1.0 - 0.5 * std::log(tolerance)));
+}
+
+/// The series method: each step is the Taylor polynomial of the solution, with exact derivatives, as long as its last terms
+/// allow. The course's method for known derivatives (F10), for any law and any order.
+///
+/// `Expansion` gives the coefficients (`LawExpansion` for a C++ law, `SystemExpansion` for a scene). The step h is the
+/// largest for which the last two terms are within the tolerance of every component, [JorbaZou2005] §3.2 (3-8) with the
+/// tolerances of each component:
+///
+///     max_i |c_i[k]| h^k / (atol + rtol |q_i|) <= 1   for k = order - 1 and order
+///
+/// - Where the solutions are polynomials (constant acceleration), the step is the whole run and exact.
+/// - Where the law takes another branch (a comparison, abs, …), the step ends there.
+/// - Where there is no power series (a speed that vanishes on a curve), a step of Dormand and Prince's method leads past.
+template <class Expansion>
+class TaylorStepper {
+ public:
+  using State = typename Expansion::State;
+  static constexpr int kDimension = State::RowsAtCompileTime;
+
+  TaylorStepper(Expansion expansion, const StepOptions& options)
+      : expansion_(std::move(expansion)),
+        options_(options),
+        order_(options.order > 0 ? options.order : taylor_order(options.rtol > 0.0 ? options.rtol : options.atol)),
+        degree_(expansion_.polynomial_degree()),
+        exact_(degree_ >= 0 && degree_ <= kMaxTaylorOrder) {
+    order_ = exact_ ? std::max(degree_, 1) : std::clamp(order_, 2, kMaxTaylorOrder);
+    inverse_order_ = 1.0 / order_;
+    inverse_order_less_one_ = 1.0 / (order_ - 1);
+    segment_.resize(expansion_.dimension(), order_);
+    inverse_tolerance_.resize(expansion_.dimension());
+  }
+
+  void start(double t, const State& q) {
+    t_ = t;
+    q_ = q;
+    previous_step_ = 0.0;
+  }
+
+  StepStatus advance(double t_limit) {
+    const double remaining = t_limit - t_;
+    double step = 0.0;
+    for (int expansions = 0; expansions < kMaxBranchChanges; ++expansions) {
+      expansion_.expand(t_, q_, order_, segment_.coefficients().data());
+      ++statistics_.law_evaluations;
+      step = exact_ ? remaining : std::copysign(step_within_tolerance(std::abs(remaining)), remaining);
+      step = expansion_.duration_until_branch(step);
+      // a branch that changes at once: expand again, behind it
+      if (!(std::abs(step) < smallest_step(t_))) break;
+    }
+    const bool too_short = !(std::abs(step) >= std::max(smallest_step(t_), kShortStep * previous_step_));
+    if (too_short && step != remaining) return advance_by_runge_kutta(t_limit, step);
+    return accept(t_limit, step);
+  }
+
+  /// Writes the last step.
+  void fill_segment(Segment<kDimension>& segment) const {
+    if (by_runge_kutta_) {
+      runge_kutta_->fill_segment(segment);
+      return;
+    }
+    segment = segment_;
+    const double h = std::abs(segment_.duration());
+    for (int i = 0; i < segment_.dimension(); ++i) {
+      // the last term bounds the first one left out; each of the others is rounded
+      double magnitude = 0.0;
+      for (int k = order_; k >= 0; --k) magnitude = magnitude * h + std::abs(segment_.coefficients()(i, k));
+      const double last_term = exact_ ? 0.0 : std::abs(segment_.coefficients()(i, order_)) * std::pow(h, order_);
+      segment.error_bound()[i] = last_term + 2.0 * std::numeric_limits<double>::epsilon() * magnitude;
+    }
+  }
+
+  double time() const { return t_; }
+  const State& state() const { return q_; }
+  const StepStatistics& statistics() const { return statistics_; }
+
+ private:
+  /// The law on plain numbers, for the steps without a series.
+  struct Rate {
+    const Expansion* expansion;
+    void operator()(double t, const State& q, State& dq) const { expansion->rate(t, q, dq); }
+  };
+  using Fallback = AdaptiveRungeKutta<Dopri5Tableau, Rate, kDimension>;
+
+  /// A law can change its branch this often at one instant before it counts as undecided there.
+  static constexpr int kMaxBranchChanges = 8;
+  /// A step this much shorter than the last one is compared with what Runge-Kutta can do: near a singular point of the
+  /// series, not of the solution, that is more.
+  static constexpr double kShortStep = 1e-3;
+  /// A series that seems to allow more than this part of the run on its first step may only be blind to what comes, a pulse
+  /// far off: the first step is then cut to the second part, and the next ones grow by no more than the third.
+  static constexpr double kLongestTrustedStep = 0.5;
+  static constexpr double kFirstStepOfBlindSeries = 1.0 / 16.0;
+  static constexpr double kLargestGrowth = 4.0;
+
+  /// max_i |c_i[k]| / (atol + rtol |q_i|)
+  double weighted_coefficient(int k) const {
+    double largest = 0.0;
+    for (int i = 0; i < segment_.dimension(); ++i)
+      largest = std::max(largest, std::abs(segment_.coefficients()(i, k)) * inverse_tolerance_[i]);
+    return largest;
+  }
+
+  double step_within_tolerance(double remaining) {
+    double finite = 0.0;  // becomes not-a-number with any coefficient that is not finite
+    for (int i = 0; i < segment_.dimension(); ++i) {
+      inverse_tolerance_[i] = 1.0 / (options_.atol + options_.rtol * std::abs(q_[i]));
+      finite += 0.0 * segment_.coefficients()(i, order_);
+    }
+    if (finite != 0.0) return std::numeric_limits<double>::quiet_NaN();
+    // h = min over the last two orders k of e_k^(-1/k)
+    const double last = detail::rough_log2(weighted_coefficient(order_)) * inverse_order_;
+    const double last_but_one = detail::rough_log2(weighted_coefficient(order_ - 1)) * inverse_order_less_one_;
+    double step = detail::rough_exp2(-std::clamp(std::max(last, last_but_one), -900.0, 900.0));
+    if (previous_step_ > 0.0)
+      step = std::min(step, kLargestGrowth * previous_step_);
+    else if (options_.step)
+      step = std::min(step, *options_.step);
+    else if (step > kLongestTrustedStep * remaining)
+      step = kFirstStepOfBlindSeries * remaining;
+    return std::min(step, remaining);
+  }
+
+  StepStatus accept(double t_limit, double step) {
+    const double t0 = t_;
+    t_ = step == t_limit - t0 ? t_limit : t0 + step;
+    segment_.set_interval(t0, t_);
+    segment_.evaluate(t_, q_);
+    if (!q_.allFinite()) {
+      t_ = t0;
+      q_ = segment_.coefficients().col(0);
+      return StepStatus::not_finite;
+    }
+    // a step cut short by the limit says nothing about the next one
+    previous_step_ = t_ == t_limit ? std::max(previous_step_, std::abs(step)) : std::abs(step);
+    by_runge_kutta_ = false;
+    ++statistics_.steps;
+    return StepStatus::ok;
+  }
+
+  /// One step of Dormand and Prince's method, or the series' own `step` where that is the longer one.
+  StepStatus advance_by_runge_kutta(double t_limit, double step) {
+    if (!runge_kutta_) runge_kutta_.emplace(Rate{&expansion_}, StepOptions{.rtol = options_.rtol, .atol = options_.atol});
+    const StepStatistics before = runge_kutta_->statistics();
+    runge_kutta_->start(t_, q_);
+    const StepStatus status = runge_kutta_->advance(t_limit);
+    statistics_.law_evaluations += runge_kutta_->statistics().law_evaluations - before.law_evaluations;
+    statistics_.rejected_steps += runge_kutta_->statistics().rejected_steps - before.rejected_steps;
+    const bool series_is_longer = std::abs(step) >= std::abs(runge_kutta_->time() - t_);
+    if (std::abs(step) >= smallest_step(t_) && (status != StepStatus::ok || series_is_longer)) return accept(t_limit, step);
+    if (status != StepStatus::ok) return status;
+    previous_step_ = std::abs(runge_kutta_->time() - t_);
+    t_ = runge_kutta_->time();
+    q_ = runge_kutta_->state();
+    by_runge_kutta_ = true;
+    ++statistics_.steps;
+    return StepStatus::ok;
+  }
+
+  Expansion expansion_;
+  StepOptions options_;
+  int order_;
+  int degree_;
+  bool exact_;  // the solutions are polynomials of degree order_
+  double inverse_order_;
+  double inverse_order_less_one_;
+  bool by_runge_kutta_ = false;
+  double t_ = 0.0;
+  double previous_step_ = 0.0;  // s, >= 0; 0: none yet
+  State q_;
+  State inverse_tolerance_;
+  Segment<kDimension> segment_;
+  std::optional<Fallback> runge_kutta_;
+  StepStatistics statistics_;
+};
+
+/// The expansion of a run-time System.
+class SystemExpansion {
+ public:
+  using State = Eigen::VectorXd;
+
+  explicit SystemExpansion(System& system) : system_(&system) {}
+  int dimension() const { return system_->dimension(); }
+  void rate(double t, const State& q, State& dq) const { system_->rate(t, q.data(), dq.data()); }
+  void expand(double t, const State& q, int order, double* coefficients) {
+    system_->expand(t, q.data(), order, coefficients);
+  }
+  double duration_until_branch(double duration) { return system_->duration_until_branch(duration); }
+  int polynomial_degree() const { return system_->polynomial_degree(); }
+
+ private:
+  System* system_;
+};
+
+}  // namespace trajet
