@@ -26,9 +26,12 @@ SyntaxNode number_node(double value, const SourceLocation& where) {
   return node;
 }
 
-Formula number_formula(double value, const SourceLocation& where) { return {number_node(value, where), where, shortest(value)}; }
+Formula number_formula(double value, const SourceLocation& where) {
+  return {number_node(value, where), where, shortest(value)};
+}
 
-Formula vector_formula(const SyntaxNode& x, const SyntaxNode& y, const SyntaxNode& z, const SourceLocation& where, std::string text) {
+Formula vector_formula(const SyntaxNode& x, const SyntaxNode& y, const SyntaxNode& z, const SourceLocation& where,
+                       std::string text) {
   SyntaxNode node;
   node.kind = SyntaxNode::Kind::vector;
   node.where = where;
@@ -39,7 +42,8 @@ Formula vector_formula(const SyntaxNode& x, const SyntaxNode& y, const SyntaxNod
 }
 
 void collect_names(const SyntaxNode& node, std::vector<std::string>& names) {
-  if (node.kind == SyntaxNode::Kind::name && std::ranges::find(names, node.text) == names.end()) names.push_back(node.text);
+  if (node.kind == SyntaxNode::Kind::name && std::ranges::find(names, node.text) == names.end())
+    names.push_back(node.text);
   for (const SyntaxNode& child : node.children) collect_names(child, names);
 }
 
@@ -50,22 +54,27 @@ Expression::Expression(detail::Formula formula) : formula_(std::make_shared<cons
 Expression::Expression(double value) : Expression(number_formula(value, {})) {}
 
 Expression::Expression(const Vector3& value)
-    : Expression(vector_formula(number_node(value.x(), {}), number_node(value.y(), {}), number_node(value.z(), {}), {},
-                                "[" + shortest(value.x()) + ", " + shortest(value.y()) + ", " + shortest(value.z()) + "]")) {}
+    : Expression(
+          vector_formula(number_node(value.x(), {}), number_node(value.y(), {}), number_node(value.z(), {}), {},
+                         "[" + shortest(value.x()) + ", " + shortest(value.y()) + ", " + shortest(value.z()) + "]")) {}
 
 Expression::Expression(const char* text) : Expression(detail::parse_formula(text, {}, {})) {}
 
 Expression::Expression(const std::string& text) : Expression(detail::parse_formula(text, {}, {})) {}
 
-Expression Expression::parse(std::string_view text, const SourceLocation& where, std::span<const std::string> dashed_names) {
+Expression Expression::parse(std::string_view text, const SourceLocation& where,
+                             std::span<const std::string> dashed_names) {
   return Expression(detail::parse_formula(text, where, dashed_names));
 }
 
 Expression Expression::vector(const Expression& x, const Expression& y, const Expression& z) {
-  return Expression(vector_formula(x.root(), y.root(), z.root(), x.where(), "[" + x.text() + ", " + y.text() + ", " + z.text() + "]"));
+  return Expression(vector_formula(x.root(), y.root(), z.root(), x.where(),
+                                   "[" + x.text() + ", " + y.text() + ", " + z.text() + "]"));
 }
 
-Expression Expression::number(double value, const SourceLocation& where) { return Expression(number_formula(value, where)); }
+Expression Expression::number(double value, const SourceLocation& where) {
+  return Expression(number_formula(value, where));
+}
 
 const SourceLocation& Expression::where() const { return formula_->where; }
 

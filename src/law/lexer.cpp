@@ -17,7 +17,9 @@ std::string quote_character(std::string_view text, std::size_t offset) {
   const auto byte = static_cast<unsigned char>(text[offset]);
   if (byte < 0x20 || byte == 0x7f) return "the control character " + std::to_string(byte);
   std::size_t end = offset + 1;
-  while (byte >= 0xc0 && end < text.size() && end < offset + 4 && (static_cast<unsigned char>(text[end]) & 0xc0) == 0x80) ++end;
+  while (byte >= 0xc0 && end < text.size() && end < offset + 4 &&
+         (static_cast<unsigned char>(text[end]) & 0xc0) == 0x80)
+    ++end;
   if (byte >= 0x80 && end == offset + 1) return "the byte " + std::to_string(byte);
   return "'" + std::string(text.substr(offset, end - offset)) + "'";
 }
@@ -28,10 +30,12 @@ struct ForeignOperator {
 };
 
 /// What other languages write, longest first.
-constexpr ForeignOperator kForeignOperators[] = {{"**", "^"}, {"&&", "and"}, {"||", "or"}, {"<>", "!="}, {"!", "not"}, {"&", "and"},
-                                                 {"|", "or"}, {"=", "=="},   {";", ","},   {"{", "("},   {"}", ")"}};
+constexpr ForeignOperator kForeignOperators[] = {{"**", "^"},  {"&&", "and"}, {"||", "or"}, {"<>", "!="},
+                                                 {"!", "not"}, {"&", "and"},  {"|", "or"},  {"=", "=="},
+                                                 {";", ","},   {"{", "("},    {"}", ")"}};
 
-constexpr std::string_view kSymbols[] = {"<=", ">=", "==", "!=", "+", "-", "*", "/", "^", "<", ">", "(", ")", "[", "]", ","};
+constexpr std::string_view kSymbols[] = {"<=", ">=", "==", "!=", "+", "-", "*", "/",
+                                         "^",  "<",  ">",  "(",  ")", "[", "]", ","};
 
 }  // namespace
 
@@ -94,7 +98,8 @@ Token Lexer::name() {
   const std::string_view rest = text_.substr(position_);
   std::size_t dashed = 0;
   for (const std::string& candidate : dashed_names_) {
-    const bool matches = rest.starts_with(candidate) && (rest.size() == candidate.size() || !is_name_character(rest[candidate.size()]));
+    const bool matches =
+        rest.starts_with(candidate) && (rest.size() == candidate.size() || !is_name_character(rest[candidate.size()]));
     if (matches) dashed = std::max(dashed, candidate.size());
   }
   const bool has_part = dashed > 0 && dashed + 1 < rest.size() && rest[dashed] == '.' && is_letter(rest[dashed + 1]);
@@ -115,7 +120,8 @@ Token Lexer::symbol() {
   for (const ForeignOperator& foreign : kForeignOperators) {
     const bool is_ours = rest.starts_with("==") || rest.starts_with("!=");
     if (!is_ours && rest.starts_with(foreign.spelling)) {
-      fail("'" + std::string(foreign.spelling) + "' is not an operator here; did you mean '" + std::string(foreign.ours) + "'?");
+      fail("'" + std::string(foreign.spelling) + "' is not an operator here; did you mean '" +
+           std::string(foreign.ours) + "'?");
     }
   }
   for (const std::string_view symbol : kSymbols) {

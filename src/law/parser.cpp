@@ -18,15 +18,15 @@ constexpr std::size_t kMaxLength = 1 << 20;
 constexpr int kUnlimited = 1000;
 
 constexpr FunctionInfo kFunctions[] = {
-    {"sqrt", Operation::sqrt, 1, 1},   {"cbrt", Operation::cbrt, 1, 1},   {"exp", Operation::exp, 1, 1},
-    {"log", Operation::log, 1, 1},     {"log10", Operation::log10, 1, 1}, {"sin", Operation::sin, 1, 1},
-    {"cos", Operation::cos, 1, 1},     {"tan", Operation::tan, 1, 1},     {"asin", Operation::asin, 1, 1},
-    {"acos", Operation::acos, 1, 1},   {"atan", Operation::atan, 1, 1},   {"atan2", Operation::atan2, 2, 2},
-    {"sinh", Operation::sinh, 1, 1},   {"cosh", Operation::cosh, 1, 1},   {"tanh", Operation::tanh, 1, 1},
-    {"abs", Operation::abs, 1, 1},     {"sign", Operation::sign, 1, 1},   {"min", Operation::min, 2, kUnlimited},
-    {"max", Operation::max, 2, kUnlimited}, {"pow", Operation::pow, 2, 2}, {"floor", Operation::floor, 1, 1},
-    {"dot", Operation::dot, 2, 2},     {"cross", Operation::cross, 2, 2}, {"norm", Operation::norm, 1, 1},
-    {"unit", Operation::unit, 1, 1},   {"where", Operation::where, 3, 3}, {"table", Operation::table, 2, 2},
+    {"sqrt", Operation::sqrt, 1, 1},        {"cbrt", Operation::cbrt, 1, 1},   {"exp", Operation::exp, 1, 1},
+    {"log", Operation::log, 1, 1},          {"log10", Operation::log10, 1, 1}, {"sin", Operation::sin, 1, 1},
+    {"cos", Operation::cos, 1, 1},          {"tan", Operation::tan, 1, 1},     {"asin", Operation::asin, 1, 1},
+    {"acos", Operation::acos, 1, 1},        {"atan", Operation::atan, 1, 1},   {"atan2", Operation::atan2, 2, 2},
+    {"sinh", Operation::sinh, 1, 1},        {"cosh", Operation::cosh, 1, 1},   {"tanh", Operation::tanh, 1, 1},
+    {"abs", Operation::abs, 1, 1},          {"sign", Operation::sign, 1, 1},   {"min", Operation::min, 2, kUnlimited},
+    {"max", Operation::max, 2, kUnlimited}, {"pow", Operation::pow, 2, 2},     {"floor", Operation::floor, 1, 1},
+    {"dot", Operation::dot, 2, 2},          {"cross", Operation::cross, 2, 2}, {"norm", Operation::norm, 1, 1},
+    {"unit", Operation::unit, 1, 1},        {"where", Operation::where, 3, 3}, {"table", Operation::table, 2, 2},
 };
 
 /// An infix operator: it takes an operand on its right whose operators bind tighter than `right`.
@@ -143,11 +143,13 @@ class Parser {
 
   SyntaxNode named() {
     if (token_.text == "not") return unary(Operation::logical_not, kNotPower);
-    if (token_.text == "and" || token_.text == "or") fail("a number, a name or '(' is expected before " + quoted(token_));
+    if (token_.text == "and" || token_.text == "or")
+      fail("a number, a name or '(' is expected before " + quoted(token_));
     SyntaxNode node = take(SyntaxNode::Kind::name);
     const FunctionInfo* function = find_function(node.text);
     if (is_symbol("(")) return call(std::move(node), function);
-    if (function != nullptr) throw InputError(node.where, "'" + node.text + "' is a function: write " + node.text + "(...)");
+    if (function != nullptr)
+      throw InputError(node.where, "'" + node.text + "' is a function: write " + node.text + "(...)");
     if (node.text == "pi") {
       node.kind = SyntaxNode::Kind::number;
       node.value = std::numbers::pi;
@@ -179,7 +181,8 @@ class Parser {
     expect(")", "", node.text);
     const int count = first + static_cast<int>(node.children.size());
     if (count < function->min_arguments || count > function->max_arguments) {
-      throw InputError(node.where, node.text + " takes " + argument_count(*function) + ", got " + std::to_string(count));
+      throw InputError(node.where,
+                       node.text + " takes " + argument_count(*function) + ", got " + std::to_string(count));
     }
     return node;
   }
@@ -204,7 +207,8 @@ class Parser {
 
   void add_child(SyntaxNode& node, SyntaxNode child) {
     node.height = std::max(node.height, child.height + 1);
-    if (node.height > kMaxHeight) throw InputError(node.where, "longer than " + std::to_string(kMaxHeight) + " operations in a row");
+    if (node.height > kMaxHeight)
+      throw InputError(node.where, "longer than " + std::to_string(kMaxHeight) + " operations in a row");
     node.children.push_back(std::move(child));
   }
 
@@ -240,7 +244,8 @@ const FunctionInfo* find_function(std::string_view name) {
 }
 
 Formula parse_formula(std::string_view text, const SourceLocation& where, std::span<const std::string> dashed_names) {
-  if (text.size() > kMaxLength) throw InputError(where, "an expression of more than " + std::to_string(kMaxLength) + " characters");
+  if (text.size() > kMaxLength)
+    throw InputError(where, "an expression of more than " + std::to_string(kMaxLength) + " characters");
   return {Parser(text, where, dashed_names).formula(), where, std::string(text)};
 }
 

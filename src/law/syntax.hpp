@@ -13,11 +13,49 @@ namespace trajet::detail {
 /// What a node of the syntax tree does with its children: operators and functions alike.
 enum class Operation {
   // operators
-  negate, logical_not, add, subtract, multiply, divide, power,
-  less, less_equal, greater, greater_equal, equal, not_equal, logical_and, logical_or,
+  negate,
+  logical_not,
+  add,
+  subtract,
+  multiply,
+  divide,
+  power,
+  less,
+  less_equal,
+  greater,
+  greater_equal,
+  equal,
+  not_equal,
+  logical_and,
+  logical_or,
   // functions
-  sqrt, cbrt, exp, log, log10, sin, cos, tan, asin, acos, atan, atan2, sinh, cosh, tanh,
-  abs, sign, min, max, pow, floor, dot, cross, norm, unit, where, table,
+  sqrt,
+  cbrt,
+  exp,
+  log,
+  log10,
+  sin,
+  cos,
+  tan,
+  asin,
+  acos,
+  atan,
+  atan2,
+  sinh,
+  cosh,
+  tanh,
+  abs,
+  sign,
+  min,
+  max,
+  pow,
+  floor,
+  dot,
+  cross,
+  norm,
+  unit,
+  where,
+  table,
 };
 
 /// A node of a parsed formula. Names have no meaning yet.
@@ -25,13 +63,13 @@ struct SyntaxNode {
   enum class Kind { number, name, vector, operation };
 
   Kind kind = Kind::number;
-  SourceLocation where;                    ///< of the token that makes it: number, name, `[`, operator, function name
-  double value = 0.0;                      ///< number
-  Operation operation = Operation::negate; ///< operation
-  std::string text;                        ///< name, or the operator or function as written
-  std::string file;                        ///< operation `table`: the file as written
+  SourceLocation where;                     ///< of the token that makes it: number, name, `[`, operator, function name
+  double value = 0.0;                       ///< number
+  Operation operation = Operation::negate;  ///< operation
+  std::string text;                         ///< name, or the operator or function as written
+  std::string file;                         ///< operation `table`: the file as written
   std::vector<SyntaxNode> children;
-  int height = 1;                          ///< levels of the tree below and including this node
+  int height = 1;  ///< levels of the tree below and including this node
 };
 
 /// A whole formula: what an Expression shares among its copies.

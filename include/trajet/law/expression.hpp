@@ -21,13 +21,14 @@ struct Formula;
 /// Scalar or 3-vector valued. Grammar and functions: docs/formats/expressions.md.
 class Expression {
  public:
-  Expression(double value);           // NOLINT(google-explicit-constructor): a number is a formula
-  Expression(const Vector3& value);   // NOLINT(google-explicit-constructor)
-  Expression(const char* text);       // NOLINT(google-explicit-constructor): parses; throws InputError
+  Expression(double value);             // NOLINT(google-explicit-constructor): a number is a formula
+  Expression(const Vector3& value);     // NOLINT(google-explicit-constructor)
+  Expression(const char* text);         // NOLINT(google-explicit-constructor): parses; throws InputError
   Expression(const std::string& text);  // NOLINT(google-explicit-constructor)
   /// Parses `text`, whose first character stands at `where`. Throws InputError that points at the offending token.
   /// `dashed_names`: known names that contain `-`; where the text has one, it is that name and not a subtraction.
-  static Expression parse(std::string_view text, const SourceLocation& where = {}, std::span<const std::string> dashed_names = {});
+  static Expression parse(std::string_view text, const SourceLocation& where = {},
+                          std::span<const std::string> dashed_names = {});
   /// A vector built of three scalar formulas, as `[a, b, c]`.
   static Expression vector(const Expression& x, const Expression& y, const Expression& z);
   /// A number that stands at `where` in a file: errors about its use point there.

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <array>
+#include <memory>
+#include <variant>
+
+#include "trajet/law/expression.hpp"
+#include "trajet/law/program.hpp"
+#include "trajet/law/symbols.hpp"
+
+namespace trajet {
+
+namespace detail {
+class Graph;
+}
+
+/// Compiles formulas into one Program. What two formulas have in common is computed once; constants fold.
+///
+/// Everything it rewrites keeps the result to the last bit, but for these, which only gain accuracy or cost nothing:
+/// integer powers become products, half-integer ones products with a square root; the root of a sum of two or three
+/// squares becomes the length of a vector, that of one square the absolute value, since these have a power series where
+/// the argument vanishes; a component of a vector that is the constant 0 stays 0 whatever it is multiplied by.
+class ProgramBuilder {
+ public:
+  /// A compiled formula: nodes of the builder's graph, one or three.
+  struct Value {
+    bool is_vector = false;
+    std::array<int, 3> nodes{};
+  };
+
+  /// Programs over the inputs 0 … input_count - 1; 0 is t.
+  explicit ProgramBuilder(int input_count);
+  ~ProgramBuilder();
+  ProgramBuilder(ProgramBuilder&&) noexcept;
+  ProgramBuilder& operator=(ProgramBuilder&&) noexcept;
+
+  /// Throws InputError that points into the formula: unknown names, scalar + vector, …; FileError for a table.
+  Value compile(const Expression& formula, const Symbols& symbols);
+  /// As `compile`; what has the wrong shape is an InputError.
+  Value compile_scalar(const Expression& formula, const Symbols& symbols);
+  Value compile_vector(const Expression& formula, const Symbols& symbols);
+
+  Value input(int index) const;
+  Value inputs(const std::array<int, 3>& indices) const;
+  Value constant(double value);
+  /// numerator / denominator, scalar or vector by scalar: a force and a mass make an acceleration.
+  Value divide(const Value& numerator, const Value& denominator);
+
+  /// Appends one or three outputs.
+  void add_output(const Value& value);
+
+  /// The program that computes the outputs added so far, and nothing else.
+  Program build() const;
+
+ private:
+  std::unique_ptr<detail::Graph> graph_;
+  std::vector<int> outputs_;
+};
+
+/// The value of a formula over constants, such as a parameter. Throws InputError that points at what is wrong: a name
+/// that is not a constant, a vector where a scalar is expected. The value may be infinite or not-a-number.
+double evaluate_scalar(const Expression& formula, const Symbols& constants);
+Vector3 evaluate_vector(const Expression& formula, const Symbols& constants);
+/// One number or three.
+std::variant<double, Vector3> evaluate_constant(const Expression& formula, const Symbols& constants);
+
+}  // namespace trajet

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <array>
+#include <map>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "trajet/math/vector.hpp"
+
+namespace trajet {
+
+/// What the names of a formula mean where it is used. An inner scope sees the names of the outer one and may hide them.
+class Symbols {
+ public:
+  struct Scalar {
+    int input;
+  };
+  struct Vector {
+    std::array<int, 3> inputs;
+  };
+  /// A name that has a meaning elsewhere: using it is an error that gives the reason.
+  struct Forbidden {
+    std::string reason;
+  };
+  using Meaning = std::variant<double, Vector3, Scalar, Vector, Forbidden>;
+
+  /// `outer`, if any, must live as long as this scope is used.
+  explicit Symbols(const Symbols* outer = nullptr) : outer_(outer) {}
+
+  /// Defines a name, anew if it is known.
+  void set(const std::string& name, Meaning meaning) { meanings_.insert_or_assign(name, std::move(meaning)); }
+  void set_constant(const std::string& name, double value) { set(name, value); }
+  void set_constant(const std::string& name, const Vector3& value) { set(name, value); }
+  /// The name stands for an input of the program: 0 is t.
+  void set_input(const std::string& name, int input) { set(name, Scalar{input}); }
+  void set_inputs(const std::string& name, const std::array<int, 3>& inputs) { set(name, Vector{inputs}); }
+  /// `reason` is a whole message: "t is not allowed in a parameter".
+  void forbid(const std::string& name, const std::string& reason) { set(name, Forbidden{reason}); }
+
+  /// The meaning of a name here, or nullptr.
+  const Meaning* find(std::string_view name) const {
+    const auto found = meanings_.find(name);
+    if (found != meanings_.end()) return &found->second;
+    return outer_ == nullptr ? nullptr : outer_->find(name);
+  }
+
+  /// All names that may be used here, inner scope first.
+  std::vector<std::string_view> names() const {
+    std::vector<std::string_view> result;
+    for (const Symbols* scope = this; scope != nullptr; scope = scope->outer_) {
+      for (const auto& [name, meaning] : scope->meanings_) {
+        if (!std::holds_alternative<Forbidden>(meaning)) result.push_back(name);
+      }
+    }
+    return result;
+  }
+
+ private:
+  const Symbols* outer_;
+  std::map<std::string, Meaning, std::less<>> meanings_;
+};
+
+}  // namespace trajet

@@ -1,0 +1,107 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include "trajet/error.hpp"
+#include "trajet/math/number.hpp"
+
+namespace trajet {
+
+/// A function given by points: `table("file.csv", x)` of the expressions.
+///
+/// A cubic between neighbouring points whose slopes keep it monotone where the points are (Fritsch and Butland 1984,
+/// the method `pchip`): the value and the slope are continuous, and it never overshoots. Two points make a straight
+/// line. Outside the points it is not-a-number: a run that leaves its data fails rather than makes up values.
+class Table {
+ public:
+  /// y = c0 + c1 u + c2 u^2 + c3 u^3 with u = x - begin, for x between this cell's begin and the next one's.
+  struct Cell {
+    double begin;
+    double c0, c1, c2, c3;
+  };
+
+  /// At least two points, x rising, all finite: else std::invalid_argument.
+  Table(const std::vector<double>& x, const std::vector<double>& y);
+
+  /// Reads two columns of numbers, separated by comma, semicolon or blanks, after an optional line of titles.
+  /// Throws FileError if the file cannot be read, InputError that points into it if it is wrong.
+  static Table read(const std::string& path);
+
+  double first() const { return cells_.front().begin; }
+  double last() const { return last_; }
+  bool contains(double x) const { return x >= first() && x <= last(); }
+
+  int cell_count() const { return static_cast<int>(cells_.size()); }
+  const Cell& cell(int index) const { return cells_[static_cast<std::size_t>(index)]; }
+  /// The x at which the cell ends.
+  double cell_end(int index) const { return index + 1 < cell_count() ? cell(index + 1).begin : last_; }
+
+  /// The cell that x lies in; at a point, the cell behind it, at the last point the last cell. Outside, the nearest.
+  int find_cell(double x) const {
+    const auto behind = std::upper_bound(cells_.begin() + 1, cells_.end(), x,
+                                         [](double value, const Cell& cell) { return value < cell.begin; });
+    return static_cast<int>(behind - cells_.begin()) - 1;
+  }
+
+  /// The value for any number type. Where x is not known to lie in one cell, what `where` makes of all it may lie in.
+  template <class T>
+  T operator()(const T& x) const;
+
+ private:
+  template <class T>
+  static T evaluate_cell(const Cell& cell, const T& x) {
+    const T u = x - T(cell.begin);
+    return ((T(cell.c3) * u + T(cell.c2)) * u + T(cell.c1)) * u + T(cell.c0);
+  }
+
+  std::vector<Cell> cells_;
+  double last_;
+};
+
+namespace detail {
+
+/// The smallest and the largest value that a number may have: of a Series its value counts, of a Pack all lanes.
+struct Bounds {
+  double lower;
+  double upper;
+};
+
+template <class T>
+Bounds bounds(const T& x) {
+  if constexpr (std::is_same_v<T, double>) {
+    return {x, x};
+  } else if constexpr (requires { x.lower(), x.upper(); }) {
+    return {x.lower(), x.upper()};
+  } else if constexpr (requires { typename T::Coefficient; }) {
+    return bounds(x[0]);
+  } else {
+    std::array<double, T::size> lanes;
+    x.store_unaligned(lanes.data());
+    const auto [lower, upper] = std::minmax_element(lanes.begin(), lanes.end());
+    return {*lower, *upper};
+  }
+}
+
+}  // namespace detail
+
+template <class T>
+T Table::operator()(const T& x) const {
+  if constexpr (requires { T::transcendental(x); }) {
+    return T::transcendental(x);  // PolynomialDegree
+  } else {
+    const detail::Bounds range = detail::bounds(x);
+    const int lowest = find_cell(range.lower), highest = find_cell(range.upper);
+    T y = evaluate_cell(cell(lowest), x);
+    for (int i = lowest + 1; i <= highest; ++i) y = where(less(x, T(cell(i).begin)), y, evaluate_cell(cell(i), x));
+    if (contains(range.lower) && contains(range.upper)) return y;
+    const T outside(std::numeric_limits<double>::quiet_NaN());
+    return where(less(x, T(first())), outside, where(less_equal(x, T(last())), y, outside));
+  }
+}
+
+}  // namespace trajet

@@ -1,0 +1,98 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "trajet/law/program.hpp"
+
+namespace trajet::detail {
+
+/// Scalar computations as a graph without duplicates: asking for a node that exists already returns it.
+///
+/// Every function simplifies what it is asked for; operands are nodes. Operands always precede their users.
+class Graph {
+ public:
+  explicit Graph(int input_count);
+
+  int input(int index) const { return index; }
+  int constant(double value);
+  /// The value of a node that is a constant.
+  std::optional<double> constant_value(int node) const;
+  bool is_constant(int node, double value) const { return constant_value(node) == value; }
+
+  int add(int a, int b);
+  int subtract(int a, int b);
+  int multiply(int a, int b);
+  int divide(int a, int b);
+  int negate(int a);
+  int power(int a, int b);
+  int sqrt(int a);
+  int abs(int a);
+  int norm(int x, int y, int z);
+  /// `then` where the condition is not 0.
+  int where(int condition, int then, int otherwise);
+  /// The table of a file, which is read once.
+  int table(const std::string& path, int x);
+  /// Any other opcode of one or two operands.
+  int apply(Opcode opcode, int a, int b = 0);
+
+  Program build(std::span<const int> outputs) const;
+
+ private:
+  struct Node {
+    enum class Kind : std::uint8_t { input, constant, operation };
+    Kind kind = Kind::operation;
+    Opcode opcode = Opcode::add;
+    std::array<int, 3> operands{};
+    double constant = 0.0;
+  };
+  struct Key {
+    Opcode opcode;
+    std::array<int, 3> operands;
+    std::uint64_t constant_bits;
+    bool operator==(const Key&) const = default;
+  };
+  struct KeyHash {
+    std::size_t operator()(const Key& key) const;
+  };
+
+  const Node& node(int index) const { return nodes_[static_cast<std::size_t>(index)]; }
+  bool is(int index, Opcode opcode) const {
+    return node(index).kind == Node::Kind::operation && node(index).opcode == opcode;
+  }
+  int operand(int index, int which = 0) const { return node(index).operands[static_cast<std::size_t>(which)]; }
+
+  /// The node of that operation, a constant if all its operands are.
+  int operation(Opcode opcode, std::array<int, 3> operands, double constant = 0.0);
+  int fold(const Node& node);
+  int add_constant(int a, double k);
+  int multiply_constant(int a, double k);
+  int divide_constant(int a, double k);
+  int integer_power(int a, int exponent);
+  /// Appends the x_i of a sum of squares x_0^2 + x_1^2 + …; false if `index` is anything else or has too many terms.
+  bool collect_squares(int index, std::vector<int>& terms) const;
+
+  std::vector<bool> find_live(std::span<const int> outputs) const;
+  /// The cosine of what the node is the sine of, or the other way round, if it is computed too; else -1.
+  int find_twin(const Node& node, const std::vector<bool>& live) const;
+  Instruction make_instruction(int index, int twin, const std::vector<std::int32_t>& slots) const;
+
+  int input_count_;
+  std::vector<Node> nodes_;
+  std::unordered_map<Key, int, KeyHash> known_;
+  std::unordered_map<std::uint64_t, int> known_constants_;
+  std::vector<std::shared_ptr<const Table>> tables_;
+  std::map<std::string, int> known_tables_;
+};
+
+/// How many of its operands a, b, c an opcode reads from slots.
+int operand_count(Opcode opcode);
+
+}  // namespace trajet::detail
