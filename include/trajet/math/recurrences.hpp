@@ -182,7 +182,8 @@ template <class T>
 template <class T, class Order>
 TRAJET_INLINE T norm3(const T* x, const T* y, const T* z, const T* s, T& half_inverse, Order n) {
   if (n == 0) {
-    const T value = trajet::norm3(x[0], y[0], z[0]);
+    using trajet::norm3;
+    const T value = norm3(x[0], y[0], z[0]);
     half_inverse = 0.5 / value;
     return value;
   }

@@ -1,0 +1,170 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <boost/numeric/interval.hpp>
+#include <cmath>
+#include <initializer_list>
+#include <limits>
+#include <numbers>
+
+#include "trajet/math/polynomial.hpp"
+#include "trajet/math/series.hpp"
+
+namespace trajet {
+
+namespace detail {
+
+/// A double that is certainly below all real numbers that round to x: the predecessor of x or its predecessor
+/// [Rump2009].
+inline double next_below(double x, double ulps = 1.0) {
+  constexpr double kJustAboveUnitRoundoff = kUnitRoundoff * (1.0 + 0x1p-52);
+  const double below = x - (ulps * kJustAboveUnitRoundoff * std::abs(x) + std::numeric_limits<double>::denorm_min());
+  // inf - inf: an overflow, whose lower bound is the largest double
+  return x == std::numeric_limits<double>::infinity() ? std::numeric_limits<double>::max() : below;
+}
+inline double next_above(double x, double ulps = 1.0) { return -next_below(-x, ulps); }
+
+/// Outward rounding for boost::numeric::interval without touching the processor's rounding mode: operations round to
+/// nearest, and each result is then moved outward by an ulp. The rounding mode would be slow to switch, and compilers
+/// move arithmetic across the switch.
+class OutwardRounding {
+ public:
+  using unprotected_rounding = OutwardRounding;
+
+  template <class Number>
+  double conv_down(Number x) const {
+    return static_cast<double>(x);
+  }
+  template <class Number>
+  double conv_up(Number x) const {
+    return static_cast<double>(x);
+  }
+  double add_down(double a, double b) const { return next_below(a + b); }
+  double add_up(double a, double b) const { return next_above(a + b); }
+  double sub_down(double a, double b) const { return next_below(a - b); }
+  double sub_up(double a, double b) const { return next_above(a - b); }
+  double mul_down(double a, double b) const { return next_below(a * b); }
+  double mul_up(double a, double b) const { return next_above(a * b); }
+  double div_down(double a, double b) const { return next_below(a / b); }
+  double div_up(double a, double b) const { return next_above(a / b); }
+  double sqrt_down(double x) const { return std::max(0.0, next_below(std::sqrt(x))); }
+  double sqrt_up(double x) const { return next_above(std::sqrt(x)); }
+  double int_down(double x) const { return std::floor(x); }
+  double int_up(double x) const { return std::ceil(x); }
+  double median(double a, double b) const { return 0.5 * a + 0.5 * b; }
+
+  double exp_down(double x) const { return std::max(0.0, below(std::exp(x))); }
+  double exp_up(double x) const { return above(std::exp(x)); }
+  double log_down(double x) const { return below(std::log(x)); }
+  double log_up(double x) const { return above(std::log(x)); }
+  double sin_down(double x) const { return below(std::sin(x)); }
+  double sin_up(double x) const { return above(std::sin(x)); }
+  double cos_down(double x) const { return below(std::cos(x)); }
+  double cos_up(double x) const { return above(std::cos(x)); }
+  double tan_down(double x) const { return below(std::tan(x)); }
+  double tan_up(double x) const { return above(std::tan(x)); }
+  double asin_down(double x) const { return below(std::asin(x)); }
+  double asin_up(double x) const { return above(std::asin(x)); }
+  double acos_down(double x) const { return below(std::acos(x)); }
+  double acos_up(double x) const { return above(std::acos(x)); }
+  double atan_down(double x) const { return below(std::atan(x)); }
+  double atan_up(double x) const { return above(std::atan(x)); }
+  double sinh_down(double x) const { return below(std::sinh(x)); }
+  double sinh_up(double x) const { return above(std::sinh(x)); }
+  double cosh_down(double x) const { return below(std::cosh(x)); }
+  double cosh_up(double x) const { return above(std::cosh(x)); }
+  double tanh_down(double x) const { return below(std::tanh(x)); }
+  double tanh_up(double x) const { return above(std::tanh(x)); }
+
+ private:
+  // glibc states at most 2 ulp for these functions; C libraries in use stay below 4.
+  static constexpr double kFunctionUlps = 8.0;
+  static double below(double x) { return next_below(x, kFunctionUlps); }
+  static double above(double x) { return next_above(x, kFunctionUlps); }
+};
+
+}  // namespace detail
+
+/// In this namespace, so that its functions of Intervals are found beside the type.
+struct IntervalPolicies {
+  using rounding = detail::OutwardRounding;
+  using checking = boost::numeric::interval_lib::checking_base<double>;
+};
+
+/// A closed interval of real numbers that certainly encloses the result of every operation on all its members.
+/// Not-a-number, or a function outside its domain, gives an empty interval, whose bounds are not-a-number.
+using Interval = boost::numeric::interval<double, IntervalPolicies>;
+
+/// The answer to a comparison of Intervals.
+enum class Decision { no, yes, undecided };
+
+inline Decision decide(bool is_certain, bool is_impossible) {
+  return is_certain ? Decision::yes : is_impossible ? Decision::no : Decision::undecided;
+}
+
+inline Decision less(const Interval& a, const Interval& b) {
+  return decide(a.upper() < b.lower(), a.lower() >= b.upper());
+}
+inline Decision less_equal(const Interval& a, const Interval& b) {
+  return decide(a.upper() <= b.lower(), a.lower() > b.upper());
+}
+inline Decision equal(const Interval& a, const Interval& b) {
+  return decide(singleton(a) && singleton(b) && a.lower() == b.lower(), a.upper() < b.lower() || a.lower() > b.upper());
+}
+
+/// `a` where the condition holds, `b` where it fails, the hull of both where it is undecided. Applied to the
+/// coefficients of a Series, that encloses the derivatives of a continuous function; of a function that jumps it
+/// encloses the value only.
+inline Interval where(Decision condition, const Interval& a, const Interval& b) {
+  return condition == Decision::yes ? a : condition == Decision::no ? b : hull(a, b);
+}
+
+inline Interval sign(const Interval& x) { return {sign(x.lower()), sign(x.upper())}; }
+inline Interval floor(const Interval& x) { return {std::floor(x.lower()), std::floor(x.upper())}; }
+
+inline Interval cbrt(const Interval& x) {
+  return {detail::next_below(std::cbrt(x.lower()), 8.0), detail::next_above(std::cbrt(x.upper()), 8.0)};
+}
+
+inline Interval norm3(const Interval& x, const Interval& y, const Interval& z) {
+  return sqrt(square(x) + square(y) + square(z));
+}
+
+/// x^y = exp(y log x), x >= 0
+inline Interval pow(const Interval& x, const Interval& y) { return exp(y * log(x)); }
+
+/// Angle of (x, y) in [-pi, pi]. Where the box touches the cut behind the origin, the whole range.
+inline Interval atan2(const Interval& y, const Interval& x) {
+  if (x.lower() <= 0.0 && zero_in(y)) {
+    const double pi_above = detail::next_above(std::numbers::pi);
+    return {-pi_above, pi_above};
+  }
+  // Without the cut the angle is monotone along every side of the box: its bounds are at corners.
+  const auto corners = {std::atan2(y.lower(), x.lower()), std::atan2(y.lower(), x.upper()),
+                        std::atan2(y.upper(), x.lower()), std::atan2(y.upper(), x.upper())};
+  return {detail::next_below(std::min(corners), 8.0), detail::next_above(std::max(corners), 8.0)};
+}
+
+}  // namespace trajet
+
+/// Eigen vectors and matrices of Intervals.
+template <>
+struct Eigen::NumTraits<trajet::Interval> : Eigen::GenericNumTraits<trajet::Interval> {
+  using Real = trajet::Interval;
+  using NonInteger = Real;
+  using Nested = Real;
+  using Literal = double;
+  enum {
+    IsComplex = 0,
+    IsInteger = 0,
+    IsSigned = 1,
+    RequireInitialization = 1,
+    ReadCost = 2,
+    AddCost = 4,
+    MulCost = 12
+  };
+  static Real epsilon() { return Real(std::numeric_limits<double>::epsilon()); }
+  static Real dummy_precision() { return Real(1e-12); }
+  static int digits10() { return std::numeric_limits<double>::digits10; }
+};
