@@ -16,12 +16,14 @@ int examples_command(const std::string& name) {
   for (const ExampleScene& example : example_scenes()) {
     names.push_back(example.name);
     if (name.empty())
-      text += fmt::format("{:<24} {}\n", example.name, parse_scene(std::string(example.text), std::string(example.name)).title);
+      text += fmt::format("{:<24} {}\n", example.name,
+                          parse_scene(std::string(example.text), std::string(example.name)).title);
     else if (example.name == name)
       text = example.text;
   }
   if (text.empty() && !name.empty())
-    throw InputError({"trajet"}, "there is no built-in scene '" + name + "', see 'trajet examples'" + did_you_mean(name, names));
+    throw InputError({"trajet"},
+                     "there is no built-in scene '" + name + "', see 'trajet examples'" + did_you_mean(name, names));
   OutputFile out("-");
   out.write(text);
   out.finish();

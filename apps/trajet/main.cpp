@@ -35,7 +35,8 @@ void check_command_name(const std::vector<std::string_view>& commands, int argc,
   for (const std::string_view command : commands)
     if (word == command) return;
   if (word.starts_with('-')) return;
-  throw InputError({"trajet"}, "unknown command '" + std::string(word) + "', see 'trajet --help'" + did_you_mean(word, commands));
+  throw InputError({"trajet"},
+                   "unknown command '" + std::string(word) + "', see 'trajet --help'" + did_you_mean(word, commands));
 }
 
 int run_program(int argc, char** argv) {

@@ -19,9 +19,12 @@ namespace {
 int exit_code(RunStatus status) {
   switch (status) {
     case RunStatus::finished:
-    case RunStatus::stopped: return kDone;
-    case RunStatus::failed: return kNumbersFailed;
-    case RunStatus::interrupted: return kInterrupted;
+    case RunStatus::stopped:
+      return kDone;
+    case RunStatus::failed:
+      return kNumbersFailed;
+    case RunStatus::interrupted:
+      return kInterrupted;
   }
   return kNumbersFailed;
 }

@@ -23,7 +23,8 @@ std::string format(const Table& table) {
   std::string text;
   for (const auto& row : table) {
     std::string line;
-    for (std::size_t i = 0; i < row.size(); ++i) fmt::format_to(std::back_inserter(line), "  {:<{}}", row[i], widths[i]);
+    for (std::size_t i = 0; i < row.size(); ++i)
+      fmt::format_to(std::back_inserter(line), "  {:<{}}", row[i], widths[i]);
     line.erase(line.find_last_not_of(' ') + 1);
     text += line + "\n";
   }
@@ -40,8 +41,9 @@ std::string impact_table(const std::vector<Impact>& impacts) {
   Table table{{"time [s]", "body", "with", "kind", "point [m]", "speed before [m/s]", "after"}};
   for (const Impact& impact : impacts) {
     if (table.size() > kMostRows) break;
-    table.push_back({format_time(impact.time), impact.body, impact.with, std::string(name(impact.kind)), format(impact.point),
-                     fmt::format("{:.6g}", impact.velocity_before.norm()), fmt::format("{:.6g}", impact.velocity_after.norm())});
+    table.push_back({format_time(impact.time), impact.body, impact.with, std::string(name(impact.kind)),
+                     format(impact.point), fmt::format("{:.6g}", impact.velocity_before.norm()),
+                     fmt::format("{:.6g}", impact.velocity_after.norm())});
   }
   std::string text = format(table);
   if (impacts.size() > kMostRows) text += fmt::format("  … and {} more\n", impacts.size() - kMostRows);
@@ -64,7 +66,8 @@ std::string final_state(const Sample& final) {
   std::string text;
   if (!final.bodies.empty()) {
     Table table{{"at the end", "position [m]", "velocity [m/s]"}};
-    for (const BodyState& body : final.bodies) table.push_back({body.body, format(body.position), format(body.velocity)});
+    for (const BodyState& body : final.bodies)
+      table.push_back({body.body, format(body.position), format(body.velocity)});
     text += format(table);
   }
   for (const NamedValue& state : final.states) text += fmt::format("  {} = {:.10g}\n", state.name, state.value);
@@ -72,8 +75,8 @@ std::string final_state(const Sample& final) {
 }
 
 std::string cost(const RunStatistics& statistics) {
-  return fmt::format("{} steps ({} rejected), {} law evaluations, {:.3g} ms\n", statistics.steps, statistics.rejected_steps,
-                     statistics.law_evaluations, 1e3 * statistics.wall_seconds);
+  return fmt::format("{} steps ({} rejected), {} law evaluations, {:.3g} ms\n", statistics.steps,
+                     statistics.rejected_steps, statistics.law_evaluations, 1e3 * statistics.wall_seconds);
 }
 
 }  // namespace
@@ -83,8 +86,8 @@ std::string summary(const RunResult& result, bool color) {
   const Style style = is_good ? Style::green : result.status == RunStatus::failed ? Style::red : Style::yellow;
   std::string text;
   if (!result.title.empty()) text += styled(result.title, Style::bold, color) + "\n";
-  text += fmt::format("{} at t = {} s (method {})\n", styled(name(result.status), style, color), format_time(result.end_time),
-                      result.method);
+  text += fmt::format("{} at t = {} s (method {})\n", styled(name(result.status), style, color),
+                      format_time(result.end_time), result.method);
   if (!result.impacts.empty()) text += "\n" + impact_table(result.impacts);
   if (!result.events.empty()) text += "\n" + event_table(result.events);
   if (result.impacts.empty() || !result.final.states.empty()) text += "\n" + final_state(result.final);

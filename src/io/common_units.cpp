@@ -105,7 +105,8 @@ void multiply(Unit& product, const Unit& factor, int power) {
 }  // namespace
 
 std::optional<Unit> common_unit(std::string_view text) {
-  // unit = factor { (blank | "." | "*" | "/") factor };  factor = name [ ["^"] integer ].  "/" divides by one factor only.
+  // unit = factor { (blank | "." | "*" | "/") factor };  factor = name [ ["^"] integer ].  "/" divides by one factor
+  // only.
   constexpr int kMaxPower = 4;  // higher ones are left to UDUNITS-2, which knows its limits
   Unit unit;
   int sign = 1;

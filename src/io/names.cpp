@@ -4,20 +4,28 @@ namespace trajet {
 
 std::string_view name(RunStatus status) {
   switch (status) {
-    case RunStatus::finished: return "finished";
-    case RunStatus::stopped: return "stopped";
-    case RunStatus::failed: return "failed";
-    case RunStatus::interrupted: return "interrupted";
+    case RunStatus::finished:
+      return "finished";
+    case RunStatus::stopped:
+      return "stopped";
+    case RunStatus::failed:
+      return "failed";
+    case RunStatus::interrupted:
+      return "interrupted";
   }
   return "";
 }
 
 std::string_view name(ImpactKind kind) {
   switch (kind) {
-    case ImpactKind::hit: return "hit";
-    case ImpactKind::graze: return "graze";
-    case ImpactKind::rest: return "rest";
-    case ImpactKind::leave: return "leave";
+    case ImpactKind::hit:
+      return "hit";
+    case ImpactKind::graze:
+      return "graze";
+    case ImpactKind::rest:
+      return "rest";
+    case ImpactKind::leave:
+      return "leave";
   }
   return "";
 }

@@ -21,13 +21,11 @@ using detail::TomlEntry;
 /// Reads one scene: the document and what all of its tables share.
 class SceneReader {
  public:
-  SceneReader(std::string text, const std::string& file) : document_(std::move(text), file) {
-    collect_dashed_names();
-  }
+  SceneReader(std::string text, const std::string& file) : document_(std::move(text), file) { collect_dashed_names(); }
 
   Scene read() const {
-    constexpr std::array<std::string_view, 9> kKeys{"title", "parameters", "time",  "method", "body",
-                                                    "obstacle", "state",   "event", "exact"};
+    constexpr std::array<std::string_view, 9> kKeys{"title",    "parameters", "time",  "method", "body",
+                                                    "obstacle", "state",      "event", "exact"};
     const TableReader root = reader(document_.root(), "the scene", {document_.file(), 1, 1});
     root.check_keys(kKeys);
 
@@ -45,9 +43,9 @@ class SceneReader {
     for (const TableReader& table : array_of_tables(root, "state")) scene.states.push_back(read_state(table));
     for (const TableReader& table : array_of_tables(root, "event")) scene.events.push_back(read_event(table));
     if (root.has("exact")) scene.exact = named_formulas(root.subtable("exact").titled("[exact]"));
+    detail::check_names(scene);
     if (scene.bodies.empty() && scene.states.empty())
       throw InputError(root.where(), "nothing moves in this scene: a [[body]] or a [[state]] expected");
-    detail::check_names(scene);
     return scene;
   }
 
@@ -111,7 +109,7 @@ class SceneReader {
   }
 
   static MethodOptions read_method(const TableReader& table) {
-    constexpr std::array<std::string_view, 9> kKeys{"name", "rtol",  "atol",        "step",  "steps",
+    constexpr std::array<std::string_view, 9> kKeys{"name",  "rtol",      "atol",        "step",  "steps",
                                                     "order", "max_steps", "orientation", "locate"};
     constexpr std::array<std::string_view, 3> kLocators{"polynomial", "interpolation", "subdivision"};
     constexpr std::array<std::string_view, 1> kOrientations{"quaternion"};
@@ -147,8 +145,9 @@ class SceneReader {
     constexpr std::array<std::string_view, 3> kDirections{"rising", "falling", "any"};
     constexpr std::array<std::string_view, 3> kActions{"record", "stop", "set"};
     table.check_keys(kKeys);
-    EventDefinition event{table.text("name"), table.scalar("when", std::nullopt), CrossingDirection::any,
-                          EventAction::record, {}, table.where("name")};
+    EventDefinition event{
+        table.text("name"), table.scalar("when", std::nullopt), CrossingDirection::any, EventAction::record, {},
+        table.where("name")};
     event.direction = std::array{CrossingDirection::rising, CrossingDirection::falling,
                                  CrossingDirection::any}[table.choice("direction", kDirections, 2)];
 

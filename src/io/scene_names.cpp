@@ -17,9 +17,9 @@ struct NameUse {
 using Names = std::map<std::string, NameUse, std::less<>>;
 
 /// Names that mean something in a body's own laws.
-constexpr std::string_view kOwnNames[] = {"r",  "v",  "w",  "x",  "y",  "z",  "vx",  "vy",  "vz",  "wx",  "wy",  "wz",  "q",
-                                          "qw", "qx", "qy", "qz", "R",  "Rxx", "Rxy", "Rxz", "Ryx", "Ryy", "Ryz", "Rzx", "Rzy",
-                                          "Rzz"};
+constexpr std::string_view kOwnNames[] = {"r",   "v",   "w",   "x",   "y",   "z",   "vx",  "vy",  "vz",
+                                          "wx",  "wy",  "wz",  "q",   "qw",  "qx",  "qy",  "qz",  "R",
+                                          "Rxx", "Rxy", "Rxz", "Ryx", "Ryy", "Ryz", "Rzx", "Rzy", "Rzz"};
 /// Parts of a body that `set` may change; the first two are those that `exact` gives.
 constexpr std::string_view kBodyParts[] = {"r", "v", "x", "y", "z", "vx", "vy", "vz"};
 
@@ -28,7 +28,8 @@ bool is_name_character(char c) { return is_letter(c) || (c >= '0' && c <= '9') |
 
 void add(Names& names, const std::string& name, std::string_view kind, const SourceLocation& where) {
   if (name.empty() || !is_letter(name.front()) || !std::ranges::all_of(name, is_name_character))
-    throw InputError(where, "'" + name + "' is no name: letters, digits, '_' and '-' expected, not starting with a digit or '-'");
+    throw InputError(
+        where, "'" + name + "' is no name: letters, digits, '_' and '-' expected, not starting with a digit or '-'");
   const auto [place, is_new] = names.try_emplace(name, NameUse{kind, where});
   if (is_new) return;
   const NameUse& first = place->second;
@@ -71,7 +72,8 @@ void check_names(const Scene& scene) {
 
   Names solid_names;
   for (const BodyDefinition& body : scene.bodies) add(solid_names, body.name, "body", body.where);
-  for (const ObstacleDefinition& obstacle : scene.obstacles) add(solid_names, obstacle.name, "obstacle", obstacle.where);
+  for (const ObstacleDefinition& obstacle : scene.obstacles)
+    add(solid_names, obstacle.name, "obstacle", obstacle.where);
 
   Names event_names;
   for (const EventDefinition& event : scene.events) {

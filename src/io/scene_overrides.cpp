@@ -21,8 +21,7 @@ std::vector<std::string> dashed_names(const Scene& scene) {
 
 void set_parameter(const std::string& assignment, Scene& scene) {
   const std::size_t equals = assignment.find('=');
-  if (equals == std::string::npos)
-    throw InputError({"--set"}, "NAME=VALUE expected, got '" + assignment + "'");
+  if (equals == std::string::npos) throw InputError({"--set"}, "NAME=VALUE expected, got '" + assignment + "'");
   const std::string name = assignment.substr(0, equals);
   const auto parameter = std::ranges::find(scene.parameters, name, &NamedExpression::name);
   if (parameter == scene.parameters.end()) {
@@ -40,8 +39,8 @@ void set_parameter(const std::string& assignment, Scene& scene) {
 void apply(const SceneOverrides& overrides, Scene& scene) {
   for (const std::string& assignment : overrides.parameters) set_parameter(assignment, scene);
   const std::vector<std::string> dashed = dashed_names(scene);
-  const auto replace = [&](std::optional<Expression>& target, const std::optional<std::string>& text, const char* option,
-                           Dimension dimension) {
+  const auto replace = [&](std::optional<Expression>& target, const std::optional<std::string>& text,
+                           const char* option, Dimension dimension) {
     if (text) target = detail::read_formula(*text, {option}, dashed, dimension);
   };
   replace(scene.time.end, overrides.end, "--end", kTime);

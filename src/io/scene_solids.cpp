@@ -88,14 +88,26 @@ const std::array<ObstacleKind, 6>& obstacle_kinds() {
 
 BodyDefinition read_body(const TableReader& table) {
   const Keys common = {"name", "shape", "position", "velocity", "acceleration", "force", "mass", "position_rate"};
-  const Keys planned = {"orientation",     "angular_velocity",          "angular_velocity_body", "angular_acceleration",
-                        "torque",          "angular_acceleration_body", "torque_body",           "inertia",
-                        "density",         "points",                    "restitution",           "friction",
-                        "size",            "file",                      "scale"};
+  const Keys planned = {"orientation",
+                        "angular_velocity",
+                        "angular_velocity_body",
+                        "angular_acceleration",
+                        "torque",
+                        "angular_acceleration_body",
+                        "torque_body",
+                        "inertia",
+                        "density",
+                        "points",
+                        "restitution",
+                        "friction",
+                        "size",
+                        "file",
+                        "scale"};
   constexpr std::array<std::string_view, 2> kShapes{"point", "sphere"};
   constexpr std::array<std::string_view, 4> kPlannedShapes{"box", "soccer-ball", "hull", "mesh"};
   const bool is_sphere = table.choice("shape", kShapes, 0, kPlannedShapes) == 1;
-  if (!is_sphere && table.has("radius")) table.fail("radius", "a point has no radius; for one, write shape = \"sphere\"");
+  if (!is_sphere && table.has("radius"))
+    table.fail("radius", "a point has no radius; for one, write shape = \"sphere\"");
   table.check_keys(common + (is_sphere ? Keys{"radius"} : Keys{}), planned);
 
   BodyDefinition body;
@@ -131,7 +143,8 @@ ObstacleDefinition read_obstacle(const TableReader& table) {
   constexpr std::array<std::string_view, 1> kPlannedOnHit{"stick"};
   ObstacleDefinition obstacle{table.text("name"), kind.read(titled)};
   obstacle.where = table.where("name");
-  obstacle.on_hit = std::array{OnHit::stop, OnHit::bounce, OnHit::pass}[table.choice("on_hit", kOnHit, 0, kPlannedOnHit)];
+  obstacle.on_hit =
+      std::array{OnHit::stop, OnHit::bounce, OnHit::pass}[table.choice("on_hit", kOnHit, 0, kPlannedOnHit)];
   if (table.has("restitution")) obstacle.restitution = table.scalar("restitution", kDimensionless);
   return obstacle;
 }

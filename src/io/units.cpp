@@ -103,7 +103,8 @@ ut_status visit_galilean(const ut_unit*, double scale, const ut_unit* underlying
 }
 
 [[noreturn]] void throw_unknown(std::string_view text) {
-  throw InputError({}, "unknown unit '" + std::string(text) + "', a unit of UDUNITS-2 expected, such as m/s, km/h, deg");
+  throw InputError({},
+                   "unknown unit '" + std::string(text) + "', a unit of UDUNITS-2 expected, such as m/s, km/h, deg");
 }
 
 bool is_blank(char c) { return c == ' ' || c == '\t'; }
@@ -158,7 +159,8 @@ std::optional<QuantityText> split_quantity(std::string_view text) {
   QuantityText quantity;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), quantity.number);
   if (error == std::errc::invalid_argument) return std::nullopt;
-  if (error == std::errc::result_out_of_range) quantity.number = std::strtod(std::string(text.data(), end).c_str(), nullptr);
+  if (error == std::errc::result_out_of_range)
+    quantity.number = std::strtod(std::string(text.data(), end).c_str(), nullptr);
   if (negative) quantity.number = -quantity.number;
 
   quantity.unit = text.substr(static_cast<std::size_t>(end - text.data()));

@@ -30,21 +30,24 @@ SourceLocation TableReader::where(std::string_view key) const {
   return node == nullptr ? where_ : document_.location(*node);
 }
 
-void TableReader::check_keys(std::span<const std::string_view> allowed, std::span<const std::string_view> planned) const {
+void TableReader::check_keys(std::span<const std::string_view> allowed,
+                             std::span<const std::string_view> planned) const {
   for (const auto& [key, node] : entries_in_file_order(table_)) {
     const std::string_view name = key->str();
     if (std::ranges::find(allowed, name) != allowed.end()) continue;
     const SourceLocation where = document_.location(*key);
     if (std::ranges::find(planned, name) != planned.end())
-      throw InputError(where, "the key " + quote(name) + " of " + title_ + " is not supported by this version of trajet, which knows: " +
-                                  join(allowed));
+      throw InputError(where, "the key " + quote(name) + " of " + title_ +
+                                  " is not supported by this version of trajet, which knows: " + join(allowed));
     const std::string hint = did_you_mean(name, allowed);
     throw InputError(where, "unknown key " + quote(name) + " in " + title_ +
                                 (hint.empty() ? ", expected one of: " + join(allowed) : hint));
   }
 }
 
-void TableReader::fail(std::string_view key, const std::string& message) const { throw InputError(where(key), message); }
+void TableReader::fail(std::string_view key, const std::string& message) const {
+  throw InputError(where(key), message);
+}
 
 void TableReader::fail_type(const toml::node& node, const std::string& expected) const {
   throw InputError(document_.location(node), expected + ", got " + std::string(type_name(node)));
@@ -113,8 +116,10 @@ Expression TableReader::vector_of(const toml::node& node, std::optional<Dimensio
   if (array == nullptr) fail_type(node, wanted);
   if (array->size() != 3)
     throw InputError(document_.location(node), wanted + ", got " + std::to_string(array->size()) + " elements");
-  return Expression::vector(scalar_of(*array->get(0), expected), scalar_of(*array->get(1), expected),
-                            scalar_of(*array->get(2), expected));
+  const Expression x = scalar_of(*array->get(0), expected);  // one after the other: the first fault is the one reported
+  const Expression y = scalar_of(*array->get(1), expected);
+  const Expression z = scalar_of(*array->get(2), expected);
+  return Expression::vector(x, y, z);
 }
 
 Expression TableReader::scalar(std::string_view key, std::optional<Dimension> expected) const {
@@ -172,7 +177,8 @@ std::size_t TableReader::choice(std::string_view key, std::span<const std::strin
   const auto found = std::ranges::find(choices, word);
   if (found != choices.end()) return static_cast<std::size_t>(found - choices.begin());
   if (std::ranges::find(planned, word) != planned.end())
-    fail(key, std::string(key) + " = \"" + word + "\" is not supported by this version of trajet, which knows: " + join(choices));
+    fail(key, std::string(key) + " = \"" + word +
+                  "\" is not supported by this version of trajet, which knows: " + join(choices));
   fail(key, "unknown " + std::string(key) + " " + quote(word) + ", expected one of: " + join(choices) +
                 did_you_mean(word, choices));
 }

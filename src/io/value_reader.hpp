@@ -15,7 +15,8 @@ namespace trajet::detail {
 /// One table of a scene file: typed access to its values, every fault an InputError at its place.
 class TableReader {
  public:
-  /// `title` names the table in messages: `[time]`, `[[body]]`. `dashed_names`: names with `-` that expressions may use.
+  /// `title` names the table in messages: `[time]`, `[[body]]`. `dashed_names`: names with `-` that expressions may
+  /// use.
   TableReader(const TomlDocument& document, const toml::table& table, std::string title, SourceLocation where,
               std::span<const std::string> dashed_names)
       : document_(document), table_(table), title_(std::move(title)), where_(where), dashed_names_(dashed_names) {}
@@ -30,8 +31,8 @@ class TableReader {
   /// Of the value of `key`, or of the table if there is none.
   SourceLocation where(std::string_view key) const;
 
-  /// Throws at the first key that is not `allowed`. Keys `planned` are in the description of the format, but not in this
-  /// version of the program.
+  /// Throws at the first key that is not `allowed`. Keys `planned` are in the description of the format, but not in
+  /// this version of the program.
   void check_keys(std::span<const std::string_view> allowed, std::span<const std::string_view> planned = {}) const;
 
   bool has(std::string_view key) const { return table_.contains(key); }
@@ -53,7 +54,8 @@ class TableReader {
   std::optional<Expression> optional_scalar(std::string_view key, Dimension expected) const;
   std::optional<Expression> optional_vector(std::string_view key, Dimension expected) const;
 
-  /// The index among `choices` of the word that `key` holds, or `default_choice`. Words `planned` are not in this version.
+  /// The index among `choices` of the word that `key` holds, or `default_choice`. Words `planned` are not in this
+  /// version.
   std::size_t choice(std::string_view key, std::span<const std::string_view> choices, std::size_t default_choice,
                      std::span<const std::string_view> planned = {}) const;
 

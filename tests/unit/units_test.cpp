@@ -26,9 +26,10 @@ std::string message_of(std::string_view unit) {
 TEST(Units, CommonOnesAgreeWithUdunits) {
   // Every name of the table, alone and in every kind of product and power.
   const std::vector<std::string> names = {
-      "m",    "cm",  "mm",    "um", "km", "in", "inch", "ft",  "foot", "feet", "yd",     "yard",    "mile", "s",
-      "ms",   "us",  "min",   "h",  "hour", "kg", "g",   "mg",  "lb",   "grain", "N",     "kN",      "J",    "Hz",
-      "mph",  "knot", "rad",  "deg", "degree", "degrees", "°", "rev", "revolution", "turn", "rpm", "%", "1"};
+      "m",       "cm",    "mm",  "um",         "km",   "in",  "inch", "ft",   "foot", "feet", "yd",
+      "yard",    "mile",  "s",   "ms",         "us",   "min", "h",    "hour", "kg",   "g",    "mg",
+      "lb",      "grain", "N",   "kN",         "J",    "Hz",  "mph",  "knot", "rad",  "deg",  "degree",
+      "degrees", "°",     "rev", "revolution", "turn", "rpm", "%",    "1"};
   std::vector<std::string> texts = names;
   for (const std::string& name : names) {
     texts.push_back(name + "/s");
@@ -49,7 +50,8 @@ TEST(Units, CommonOnesAgreeWithUdunits) {
     ASSERT_TRUE(common.has_value()) << text;
     const Unit authority = detail::udunits_unit(text);
     EXPECT_EQ(common->dimension, authority.dimension) << text << ": " << describe(authority.dimension);
-    // UDUNITS-2 writes a degree with 16 digits (1.6 ulp off) and multiplies factors one by one: up to 3 of them here, cubed.
+    // UDUNITS-2 writes a degree with 16 digits (1.6 ulp off) and multiplies factors one by one: up to 3 of them here,
+    // cubed.
     EXPECT_NEAR(factor(*common) / factor(authority), 1.0, 4e-15) << text;
   }
 }
@@ -102,12 +104,15 @@ TEST(Units, QuantityIsNumberBlankUnit) {
     const char* unit;
   };
   const Case cases[] = {
-      {"500 m/s", true, 500, "m/s"},   {"-0.2 deg", true, -0.2, "deg"}, {" +.5  m ", true, 0.5, "m"},
-      {"1e-3 kg", true, 1e-3, "kg"},   {"3 1/s", true, 3, "1/s"},       {"90 °", true, 90, "°"},
-      {"1e-400 m", true, 0, "m"},      {"2 * v0", false, 0, ""},        {"2 - 3", false, 0, ""},
-      {"2 -3", false, 0, ""},          {"v0", false, 0, ""},            {"500", false, 0, ""},
-      {"500m", false, 0, ""},          {"", false, 0, ""},              {"-", false, 0, ""},
-      {"[1, 0, 0]", false, 0, ""},     {"inf m", false, 0, ""},         {"nan m", false, 0, ""},
+      {"500 m/s", true, 500, "m/s"}, {"-0.2 deg", true, -0.2, "deg"},
+      {" +.5  m ", true, 0.5, "m"},  {"1e-3 kg", true, 1e-3, "kg"},
+      {"3 1/s", true, 3, "1/s"},     {"90 °", true, 90, "°"},
+      {"1e-400 m", true, 0, "m"},    {"2 * v0", false, 0, ""},
+      {"2 - 3", false, 0, ""},       {"2 -3", false, 0, ""},
+      {"v0", false, 0, ""},          {"500", false, 0, ""},
+      {"500m", false, 0, ""},        {"", false, 0, ""},
+      {"-", false, 0, ""},           {"[1, 0, 0]", false, 0, ""},
+      {"inf m", false, 0, ""},       {"nan m", false, 0, ""},
   };
   for (const Case& c : cases) {
     const std::optional<QuantityText> quantity = split_quantity(c.text);

@@ -6,7 +6,8 @@
 
 namespace trajet {
 
-/// The JSON report of a run: docs/formats/report.md. Numbers read back as the same doubles; what is not finite is `null`.
+/// The JSON report of a run: docs/formats/report.md. Numbers read back as the same doubles; what is not finite is
+/// `null`.
 std::string report_json(const RunResult& result);
 
 }  // namespace trajet

@@ -37,11 +37,11 @@ struct Unit {
   Dimension dimension;
 };
 
-/// The unit that `text` names: `m/s`, `km/h`, `deg`, `rpm`, `grain`, `kg m^2`: what UDUNITS-2 knows, with its spellings,
-/// and `deg` (degree), `rev` (revolution), `mph` (mile per hour).
+/// The unit that `text` names: `m/s`, `km/h`, `deg`, `rpm`, `grain`, `kg m^2`: what UDUNITS-2 knows, with its
+/// spellings, and `deg` (degree), `rev` (revolution), `mph` (mile per hour).
 ///
-/// Throws InputError without a place for unknown units and for those that are no multiple of SI units: temperatures with
-/// an offset (`degC`), dates, logarithms. Thread-safe.
+/// Throws InputError without a place for unknown units and for those that are no multiple of SI units: temperatures
+/// with an offset (`degC`), dates, logarithms. Thread-safe.
 Unit parse_unit(std::string_view text);
 
 /// A quantity string in its two parts.

@@ -1,0 +1,184 @@
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "trajet/io/scene_file.hpp"
+#include "trajet/io/scene_overrides.hpp"
+
+namespace trajet {
+namespace {
+
+/// A wrong scene and how its message must begin and what it must contain. Lines and columns are counted by hand.
+struct BadScene {
+  const char* text;
+  const char* place;  // LINE:COLUMN
+  const char* words;
+};
+
+// A text without [time] follows two lines "[time]" and "end = 1", so that its own first line is line 3.
+const BadScene kBadScenes[] = {
+    // syntax
+    {"x = [", "3:", "end-of-file"},
+    {"end = 2", "3:", "redefine"},
+    {"[[body]]\nname = \"b\nc\"", "4:", "error"},
+    {"title = \"\xff\"", "3:", "utf-8"},
+    // keys
+    {"[[body]]\nname = \"b\"\nvelocty = [1,0,0]", "5:1", "unknown key 'velocty' in [[body]]; did you mean 'velocity'?"},
+    {"[[body]]\nname = \"b\"\nradius = 1", "5:10", "a point has no radius"},
+    {"[[body]]\nname = \"b\"\nshape = \"sphere\"", "3:1", "lacks the key 'radius'"},
+    {"[[body]]\nposition = [0,0,0]", "3:1", "[[body]] lacks the key 'name'"},
+    {"[[body]]\nname = \"b\"\nangular_velocity = [0,0,1]", "5:1", "not supported by this version"},
+    {"[[body]]\nname = \"b\"\nshape = \"hull\"", "5:9", "which knows: point, sphere"},
+    {"[[body]]\nname = \"b\"\nshape = \"spere\"", "5:9", "did you mean 'sphere'?"},
+    {"[[body]]\nname = \"b\"\nforce = [0,0,1]", "5:9", "a force needs the key 'mass'"},
+    {"[[body]]\nname = \"b\"\nforce = [0,0,1]\nmass = 1\nacceleration = [0,0,1]", "5:9", "not by both"},
+    {"[[bodies]]\nname = \"b\"", "3:3", "unknown key 'bodies'"},
+    {"[body]\nname = \"b\"", "3:1", "write [[body]]"},
+    {"body = [1]\n[time]\nend = 1", "1:9", "write [[body]]"},
+    {"[methd]\nname = \"rk4\"", "3:2", "did you mean 'method'?"},
+    {"[method]\nsteps = []", "4:9", "non-empty array"},
+    {"[method]\nsteps = [1]\nstep = 1", "4:9", "not both"},
+    {"[method]\nmax_steps = 0", "4:13", "at least 1 expected, got 0"},
+    {"[method]\nmax_steps = 1.5", "4:13", "got a number"},
+    {"[method]\norientation = \"matrix\"", "4:15", "expected one of: quaternion"},
+    {"[method]\nlocate = \"linear\"", "4:10", "polynomial, interpolation, subdivision"},
+    {"[[obstacle]]\nname = \"o\"", "3:1", "lacks the key 'shape'"},
+    {"[[obstacle]]\nname = \"o\"\nshape = \"plane\"\npoint = [0,0,0]", "3:1", "lacks the key 'normal'"},
+    {"[[obstacle]]\nname = \"o\"\nshape = \"plane\"\nradius = 1", "6:1",
+     "unknown key 'radius' in [[obstacle]] of shape plane"},
+    {"[[obstacle]]\nname = \"o\"\nshape = \"mesh\"", "5:9", "not supported by this version"},
+    {"[[obstacle]]\nname = \"o\"\nshape = \"plane\"\nfriction = 1", "6:1", "not supported by this version"},
+    {"[[obstacle]]\nname=\"o\"\nshape=\"sphere\"\ncenter=[0,0,0]\nradius=1\non_hit = \"stick\"", "8:10",
+     "stop, bounce, pass"},
+    {"[[obstacle]]\nname=\"o\"\nshape=\"box\"\ncenter=[0,0,0]\nsize=[1,1,1]\norientation = {}", "8:15", "one of"},
+    // types
+    {"title = 3\n[time]\nend = 1", "1:9", "a string expected, got a number"},
+    {"[[body]]\nname = 3", "4:8", "a string expected"},
+    {"[[body]]\nname = \"b\"\nposition = 3", "5:12", "a vector expected"},
+    {"[[body]]\nname = \"b\"\nposition = [1, 2]", "5:12", "got 2 elements"},
+    {"[[body]]\nname = \"b\"\nposition = [1, 2, true]", "5:19", "got a boolean"},
+    {"[[body]]\nname = \"b\"\nposition = [1, 2, [3]]", "5:19", "got an array"},
+    {"[[body]]\nname = \"b\"\nposition = \"5 m\"", "5:12", "a vector expected"},
+    {"[parameters]\na = 1979-05-27", "4:5", "got a date"},
+    {"[[event]]\nname = \"e\"\nwhen = 1\naction = \"set\"", "3:1", "lacks the key 'set'"},
+    {"[[event]]\nname = \"e\"\nwhen = 1\naction = \"stop\"\nset = {}", "7:7", "does not go with"},
+    // numbers and units
+    {"[parameters]\na = nan", "4:5", "a finite number expected"},
+    {"[parameters]\na = -inf", "4:5", "a finite number expected"},
+    {"[parameters]\na = \"1e999 m\"", "4:6", "too large"},
+    {"[parameters]\na = \"1e999\"", "4:6", "range"},
+    {"[parameters]\na = \"5 parrots\"", "4:8", "unknown unit 'parrots'"},
+    {"[parameters]\na = \"5 degC\"", "4:8", "without an offset"},
+    {"[parameters]\na = \"500m/s\"", "4:9", "write \"500 m/s\""},
+    {"[method]\nstep = \"5 m\"", "4:11", "time [s] expected, got length [m]"},
+    {"[[body]]\nname = \"b\"\nposition = [\"1 km\", 0, \"2 m/s\"]", "5:27", "length [m] expected, got speed [m/s]"},
+    {"[[body]]\nname = \"b\"\nvelocity = [\"1 deg\", 0, 0]", "5:16", "speed [m/s] expected, got angle [rad]"},
+    // expressions: the column is that of the character inside the string
+    {"[[body]]\nname = \"b\"\nvelocity = \"[1, 0, 2 +]\"", "5:23", "error"},
+    {"[[body]]\nname = \"b\"\nvelocity = [0, 0, \"coz(1)\"]", "5:20", "did you mean 'cos'?"},
+    {"[[body]]\nname = \"b\"\nvelocity = '''[1,\n 0, coz(1)]'''", "6:5", "did you mean 'cos'?"},
+    {"[[body]]\nname = \"b\"\nvelocity = \"\"\"\n[1,\n 0, coz(1)]\"\"\"", "7:5", "did you mean 'cos'?"},
+    {"[[body]]\nname = \"b\"\nvelocity = \"[1,\\t0, coz(1)]\"", "5:12", "did you mean 'cos'?"},
+    {"[\"\u00e9\"]\n[[body]]", "3:2", "unknown key"},
+    {"[parameters]\n\"\u00e9\" = 1", "4:1", "is no name"},
+    {"[parameters]\na = [\"\u00e9\", \"coz(1)\", 1]", "4:7", "not allowed"},
+    {"[parameters]\na = [1, \"1 \u00b0\", \"coz(1)\"]", "4:18",
+     "did you mean 'cos'?"},  // columns count bytes: ° has two
+    // names
+    {"[parameters]\npi = 3", "4:1", "reserved"},
+    {"[parameters]\nt = 3", "4:1", "reserved"},
+    {"[parameters]\nsin = 3", "4:1", "reserved"},
+    {"[parameters]\nvx = 3\n[[body]]\nname = \"b\"", "4:1", "reserved"},
+    {"[[body]]\nname = \"2b\"", "4:8", "is no name"},
+    {"[[body]]\nname = \"\"", "4:8", "is no name"},
+    {"[[body]]\nname = \"b\"\n[[body]]\nname = \"b\"", "6:8", "already that of the body in line 4"},
+    {"[parameters]\nb = 1\n[[body]]\nname = \"b\"", "6:8", "already that of the parameter in line 4"},
+    {"[[body]]\nname = \"b\"\n[[obstacle]]\nname = \"b\"\nshape = \"sphere\"\ncenter = [0,0,0]\nradius = 1", "6:8",
+     "already that of the body in line 4"},
+    {"[[body]]\nname = \"b\"\n[[event]]\nname = \"e\"\nwhen = 1\n[[event]]\nname = \"e\"\nwhen = 1", "9:8", "already"},
+    {"[[body]]\nname = \"b\"\n[exact]\nc.r = 1", "6:3", "neither an extra state nor a part of a body"},
+    {"[[body]]\nname = \"b\"\n[exact]\nb.q = 1", "6:3", "did you mean 'b.r'?"},
+    {"[[body]]\nname = \"b\"\n[[event]]\nname = \"e\"\nwhen = 1\nset = {mas = 1}", "8:8", "neither an extra state"},
+    {"[[state]]\nname = \"m\"\nvalue = 1", "3:1", "[[state]] lacks the key 'rate'"},
+    // nothing to do
+    {"", "1:1", "nothing moves"},
+    {"# just a comment \n", "1:1", "nothing moves"},
+};
+
+std::string message_of(const std::string& text) {
+  try {
+    parse_scene(text, "s.toml");
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+TEST(SceneErrors, PointAtTheFaultAndSayWhatWasExpected) {
+  for (const BadScene& bad : kBadScenes) {
+    const std::string text = bad.text;
+    const bool has_time = text.find("[time]") != std::string::npos;
+    const std::string message = message_of((has_time ? "" : "[time]\nend = 1\n") + text);
+    EXPECT_TRUE(message.starts_with("s.toml:" + std::string(bad.place))) << message << "\n  for:\n" << bad.text;
+    EXPECT_NE(message.find(": error: "), std::string::npos) << message;
+    EXPECT_NE(message.find(bad.words), std::string::npos) << message << "\n  for:\n" << bad.text;
+  }
+}
+
+TEST(SceneErrors, MissingTimeIsNamed) {
+  EXPECT_EQ(message_of(""), "s.toml:1:1: error: the scene lacks the table [time] with the key 'end'");
+  EXPECT_EQ(message_of("\n[time]\nstart = 1"), "s.toml:2:1: error: [time] lacks the key 'end'");
+}
+
+TEST(SceneErrors, DeepNestingIsRefused) {
+  EXPECT_NE(message_of("a = " + std::string(100000, '[')).find("error"), std::string::npos);
+  EXPECT_NE(message_of("[time]\nend = \"" + std::string(100000, '(') + "\"").find("error"), std::string::npos);
+}
+
+Scene overridden(const SceneOverrides& overrides) {
+  Scene scene = parse_scene(
+      "[parameters]\ntheta = 1\nv-0 = 2\n[time]\nend = 1\n[method]\nsteps = [1]\n[[body]]\nname = \"b\"", "s");
+  apply(overrides, scene);
+  return scene;
+}
+
+std::string override_message(const SceneOverrides& overrides) {
+  try {
+    overridden(overrides);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+std::string message_of_setting(const std::string& assignment) {
+  SceneOverrides overrides;
+  overrides.parameters = {assignment};
+  return override_message(overrides);
+}
+
+TEST(SceneOverrides, ReplaceWhatTheyName) {
+  const Scene scene = overridden({{"theta=2*v-0", "v-0=36 km/h"}, "rk4", "10 ms", "1e-3", "1e-4", "2 min"});
+  EXPECT_EQ(scene.parameters[0].value.names(), std::vector<std::string>{"v-0"});
+  EXPECT_EQ(scene.parameters[1].value.text(), Expression(10.0).text());
+  EXPECT_EQ(scene.method.name, "rk4");
+  EXPECT_EQ(scene.method.step->text(), Expression(0.01).text());
+  EXPECT_TRUE(scene.method.steps.empty());
+  EXPECT_EQ(scene.method.rtol->text(), "1e-3");
+  EXPECT_EQ(scene.method.atol->text(), "1e-4");
+  EXPECT_EQ(scene.time.end->text(), Expression(120.0).text());
+}
+
+TEST(SceneOverrides, ErrorsNameTheOption) {
+  EXPECT_EQ(message_of_setting("thata=1"),
+            "--set thata: error: the scene has no parameter 'thata'; did you mean 'theta'?");
+  EXPECT_EQ(message_of_setting("theta"), "--set: error: NAME=VALUE expected, got 'theta'");
+  EXPECT_TRUE(message_of_setting("theta=1 +").starts_with("--set theta:1:4: error:"));
+  EXPECT_TRUE(message_of_setting("theta=").starts_with("--set theta"));
+  SceneOverrides wrong_end;
+  wrong_end.end = "5 m";
+  EXPECT_EQ(override_message(wrong_end), "--end: error: time [s] expected, got length [m]");
+}
+
+}  // namespace
+}  // namespace trajet
