@@ -1,0 +1,94 @@
+#pragma once
+
+#include <vector>
+
+#include "trajet/law/program.hpp"
+#include "trajet/math/branch.hpp"
+#include "trajet/math/polynomial.hpp"
+
+namespace trajet {
+
+/// Taylor expansion of the solutions of dq/dt = program(t, q), whose outputs are dq/dt of its inputs behind t.
+///
+/// All instructions compute their n-th coefficient from those below, then the state its (n+1)-th, for n = 0, 1, …: an
+/// expansion of order N costs O(N^2) per instruction.
+///
+/// A comparison, abs, min, max, sign, floor, a table, and a length that reaches zero have a series only as long as they
+/// stay on the branch taken at the start. An expansion therefore holds only up to `duration_until_branch`. Where the
+/// function that decides is zero at the start, the branch is the one behind the start in the direction of the search
+/// before.
+class ProgramExpansion {
+ public:
+  static constexpr int kMaxOrder = kMaxPolynomialDegree;
+
+  explicit ProgramExpansion(Program program);
+
+  int dimension() const { return static_cast<int>(program_.outputs.size()); }
+  const Program& program() const { return program_; }
+
+  /// The Taylor coefficients of the solution through (t, q) up to (time - t)^order, order 1 … kMaxOrder.
+  /// Coefficients that do not exist (the root of something that vanishes) are infinite or not-a-number.
+  /// `coefficients` is (dimension x order+1), column-major; column 0 becomes q.
+  void expand(double t, const double* q, int order, double* coefficients);
+
+  /// How long, up to `duration` (s, either sign), the branches of the last expansion hold. The next expansion, if it
+  /// starts there from the state reached, takes those behind. 0: they do not hold at all; expand again from the same
+  /// state.
+  double duration_until_branch(double duration);
+
+ private:
+  /// Where an instruction may take another branch.
+  struct Branch {
+    enum class Kind {
+      sign,      ///< decided by the sign of the function
+      nonzero,   ///< decided by whether the function vanishes
+      positive,  ///< the function is a length or a root: what continues it below zero is no longer it
+      interval,  ///< decided by the interval from `lower` to `upper` that the function lies in
+    };
+    Kind kind = Kind::sign;
+    int function = 0;   ///< row of the function that decides
+    double sign = 0.0;  ///< the sign taken by the last expansion; of an interval always 1
+    double lower = 0.0, upper = 0.0;
+    bool starts_at_zero = false;  ///< the last expansion started where the function is zero but for rounding
+    double forced_sign = 0.0;  ///< the next expansion starts at a zero of the function, and behind it this is the sign
+    double forced_border = 0.0;  ///< of an interval: the border that is crossed
+  };
+
+  /// An instruction with the rows it keeps for itself.
+  struct Step {
+    Instruction instruction;
+    int scratch = 0;  ///< first row of its own
+    int branch = -1;  ///< index of its Branch
+  };
+
+  double* row(int index) { return rows_.data() + static_cast<std::ptrdiff_t>(index) * stride_; }
+  void reserve(int order);
+  void run(const Step& step, int n);
+  void run_branch(const Step& step, Branch& branch, int n);
+  double decide_sign(Branch& branch, int n);
+  void decide_interval(const Step& step, Branch& branch, double x);
+  /// When the branch ends, from 0 to `duration` on the axis of the rows; of an interval, at which border.
+  BranchTime end_of_branch(const Branch& branch, double duration, double& border) const;
+  void remember_end(double s);
+  /// Whether (t, q) is where the last search for the end of a branch ended.
+  bool continues_at(double t, const double* q) const;
+
+  Program program_;
+  std::vector<Step> steps_;
+  std::vector<Branch> branches_;
+  int row_count_ = 0;
+  int stride_ = 0;
+  /// Taylor coefficients in s = row_direction (time - start): slots of the program, then scratch.  // (row_count x
+  /// stride)
+  std::vector<double> rows_;
+  double row_direction_ = 1.0;
+  double direction_ = 1.0;  ///< of the next expansion: that of the last search
+  int order_ = 0;
+  double start_ = 0.0;
+  bool has_end_ = false;  ///< the last search found the end of a branch, here:
+  double end_time_ = 0.0;
+  std::vector<double> end_state_;      // (dimension)
+  std::vector<double> end_tolerance_;  // (dimension)
+};
+
+}  // namespace trajet

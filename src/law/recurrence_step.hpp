@@ -1,0 +1,190 @@
+#pragma once
+
+#include <cmath>
+#include <limits>
+
+#include "trajet/law/program.hpp"
+#include "trajet/math/recurrences.hpp"
+
+namespace trajet::detail {
+
+/// Rows of its own that an opcode needs to expand into a power series.
+inline int scratch_count(Opcode opcode) {
+  switch (opcode) {
+    case Opcode::table:
+      return 3;
+    case Opcode::power:
+    case Opcode::acos:
+      return 2;
+    case Opcode::sqrt:
+    case Opcode::norm:
+    case Opcode::log10:
+    case Opcode::sin:
+    case Opcode::cos:
+    case Opcode::sinh:
+    case Opcode::cosh:
+    case Opcode::tan:
+    case Opcode::tanh:
+    case Opcode::asin:
+    case Opcode::atan:
+    case Opcode::atan2:
+    case Opcode::min:
+    case Opcode::max:
+    case Opcode::less:
+    case Opcode::less_equal:
+    case Opcode::equal:
+      return 1;
+    default:
+      return 0;
+  }
+}
+
+inline bool vanishes(const double* x, int n) {
+  for (int k = 0; k <= n; ++k) {
+    if (x[k] != 0.0) return false;
+  }
+  return true;
+}
+
+/// A power or a root of a function that is 0 at the start: 0 as long as it vanishes, no series otherwise.
+inline double power_of_zero(const double* x, int n) {
+  return vanishes(x, n) ? 0.0 : std::numeric_limits<double>::quiet_NaN();
+}
+
+/// x^alpha
+inline double power_step(const double* x, const double* p, double alpha, int n) {
+  return x[0] == 0.0 && alpha > 0.0 ? power_of_zero(x, n) : recurrence::power(x, p, alpha, n);
+}
+
+inline void sin_cos_step(const double* x, double* s, double* c, int n) {
+  if (n > 0) return recurrence::sin_cos(x, s, c, n);
+  s[0] = std::sin(x[0]);
+  c[0] = std::cos(x[0]);
+}
+
+inline void sinh_cosh_step(const double* x, double* s, double* c, int n) {
+  if (n > 0) return recurrence::sinh_cosh(x, s, c, n);
+  s[0] = std::sinh(x[0]);
+  c[0] = std::cosh(x[0]);
+}
+
+inline void asin_step(const double* x, double* y, double* root, int n) {
+  if (n > 0) return recurrence::asin(x, y, root, n);
+  y[0] = std::asin(x[0]);
+  root[0] = std::sqrt((1.0 - x[0]) * (1.0 + x[0]));
+}
+
+/// The n-th coefficient of an instruction without branches. `row(i)` are the coefficients of slot i; `u` and `v` are
+/// the instruction's first and second row of its own.
+template <class Row>
+void smooth_step(const Instruction& instruction, const Row& row, double* u, double* v, int n) {
+  const double* a = row(instruction.a);
+  const double* b = row(instruction.b);
+  double* r = row(instruction.result);
+  const double k = instruction.constant;
+  switch (instruction.opcode) {
+    case Opcode::add:
+      r[n] = a[n] + b[n];
+      break;
+    case Opcode::add_constant:
+      r[n] = n == 0 ? a[0] + k : a[n];
+      break;
+    case Opcode::subtract:
+      r[n] = a[n] - b[n];
+      break;
+    case Opcode::constant_minus:
+      r[n] = n == 0 ? k - a[0] : -a[n];
+      break;
+    case Opcode::multiply:
+      r[n] = recurrence::multiply(a, b, n);
+      break;
+    case Opcode::multiply_constant:
+      r[n] = k * a[n];
+      break;
+    case Opcode::divide:
+      r[n] = recurrence::divide(a[n], b, r, n);
+      break;
+    case Opcode::divide_constant:
+      r[n] = a[n] / k;
+      break;
+    case Opcode::constant_over:
+      r[n] = recurrence::divide(n == 0 ? k : 0.0, a, r, n);
+      break;
+    case Opcode::negate:
+      r[n] = -a[n];
+      break;
+    case Opcode::square:
+      r[n] = recurrence::square(a, n);
+      break;
+    case Opcode::power:  // a^b = exp(b log a): u = log a, v = b u
+      u[n] = n == 0 ? std::log(a[0]) : recurrence::log(a, u, n);
+      v[n] = recurrence::multiply(b, u, n);
+      r[n] = n == 0 ? std::pow(a[0], b[0]) : recurrence::exp(v, r, n);
+      break;
+    case Opcode::power_constant:
+      r[n] = n == 0 ? std::pow(a[0], k) : power_step(a, r, k, n);
+      break;
+    case Opcode::cbrt:
+      r[n] = n == 0 ? std::cbrt(a[0]) : power_step(a, r, 1.0 / 3.0, n);
+      break;
+    case Opcode::exp:
+      r[n] = n == 0 ? std::exp(a[0]) : recurrence::exp(a, r, n);
+      break;
+    case Opcode::log:
+      r[n] = n == 0 ? std::log(a[0]) : recurrence::log(a, r, n);
+      break;
+    case Opcode::log10:  // log a / log 10: u = log a
+      u[n] = n == 0 ? std::log(a[0]) : recurrence::log(a, u, n);
+      r[n] = n == 0 ? std::log10(a[0]) : u[n] / std::log(10.0);
+      break;
+    case Opcode::sin:
+      sin_cos_step(a, r, u, n);
+      break;
+    case Opcode::cos:
+      sin_cos_step(a, u, r, n);
+      break;
+    case Opcode::sin_cos:
+      sin_cos_step(a, r, row(instruction.b), n);
+      break;
+    case Opcode::sinh:
+      sinh_cosh_step(a, r, u, n);
+      break;
+    case Opcode::cosh:
+      sinh_cosh_step(a, u, r, n);
+      break;
+    case Opcode::sinh_cosh:
+      sinh_cosh_step(a, r, row(instruction.b), n);
+      break;
+    case Opcode::tan:
+      if (n > 0) return recurrence::tan(a, r, u, n);
+      r[0] = std::tan(a[0]);
+      u[0] = 1.0 + r[0] * r[0];
+      break;
+    case Opcode::tanh:
+      if (n > 0) return recurrence::tanh(a, r, u, n);
+      r[0] = std::tanh(a[0]);
+      u[0] = (1.0 - r[0]) * (1.0 + r[0]);
+      break;
+    case Opcode::asin:
+      asin_step(a, r, u, n);
+      break;
+    case Opcode::acos:  // pi/2 - asin a: v = asin a
+      asin_step(a, v, u, n);
+      r[n] = n == 0 ? std::acos(a[0]) : -v[n];
+      break;
+    case Opcode::atan:
+      if (n > 0) return recurrence::atan(a, r, u, n);
+      r[0] = std::atan(a[0]);
+      u[0] = 1.0 + a[0] * a[0];
+      break;
+    case Opcode::atan2:
+      if (n > 0) return recurrence::atan2(a, b, r, u, n);
+      r[0] = std::atan2(a[0], b[0]);
+      u[0] = a[0] * a[0] + b[0] * b[0];
+      break;
+    default:  // the opcodes with branches
+      break;
+  }
+}
+
+}  // namespace trajet::detail
