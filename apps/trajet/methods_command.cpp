@@ -12,7 +12,7 @@ int methods_command() {
   std::string text = fmt::format(kRow, "name", "aliases", "order", "dense", "step", "known as");
   for (const MethodInfo& method : methods()) {
     const char* control = method.control == StepControl::fixed ? "given" : "adaptive";
-    text += fmt::format(kRow, method.name, fmt::join(method.aliases, ", "), order(method.order),
+    text += fmt::format(kRow, method.name, fmt::format("{}", fmt::join(method.aliases, ", ")), order(method.order),
                         order(method.dense_order), control, method.known_as);
     text += fmt::format("{:<10} {}\n", "", method.summary);
   }
