@@ -23,8 +23,8 @@ constexpr double kSameState = 1e-12;
 double ProgramExpansion::decide_sign(Branch& branch, int n) {
   if (n == 0) {
     const double value = row(branch.function)[0];
-    branch.starts_at_zero = branch.forced_sign != 0.0 || value == 0.0;
-    branch.sign = branch.forced_sign != 0.0 ? branch.forced_sign : trajet::sign(value);
+    branch.starts_at_zero = branch.forced_sign || value == 0.0;
+    branch.sign = branch.forced_sign.value_or(trajet::sign(value));
   } else if (branch.sign == 0.0) {
     branch.sign = trajet::sign(row(branch.function)[n]);
   }
@@ -32,18 +32,18 @@ double ProgramExpansion::decide_sign(Branch& branch, int n) {
 }
 
 void ProgramExpansion::decide_interval(const Step& step, Branch& branch, double x) {
-  const bool forced = branch.forced_sign != 0.0;
+  const bool forced = branch.forced_sign.has_value();
   const double place = forced ? branch.forced_border : x;
   if (step.instruction.opcode == Opcode::floor) {
     branch.lower = std::floor(place);
-    if (forced && branch.forced_sign < 0.0) branch.lower -= 1.0;
+    if (forced && *branch.forced_sign < 0.0) branch.lower -= 1.0;
     branch.upper = branch.lower + 1.0;
   } else {
     const Table& table = *program_.tables[static_cast<std::size_t>(step.instruction.b)];
     int cell = table.find_cell(place);
-    if (forced && branch.forced_sign < 0.0 && place == table.cell(cell).begin) --cell;
+    if (forced && *branch.forced_sign < 0.0 && place == table.cell(cell).begin) --cell;
     const bool inside =
-        cell >= 0 && table.contains(place) && !(forced && branch.forced_sign > 0.0 && place == table.last());
+        cell >= 0 && table.contains(place) && !(forced && *branch.forced_sign > 0.0 && place == table.last());
     branch.lower = inside ? table.cell(cell).begin : std::numeric_limits<double>::quiet_NaN();
     branch.upper = inside ? table.cell_end(cell) : std::numeric_limits<double>::quiet_NaN();
   }
@@ -98,7 +98,7 @@ void ProgramExpansion::run_branch(const Step& step, Branch& branch, int n) {
       break;
     case Opcode::norm:
       branch.sign = 1.0;
-      if (n == 0) branch.starts_at_zero = branch.forced_sign != 0.0 || norm3(a[0], b[0], c[0]) == 0.0;
+      if (n == 0) branch.starts_at_zero = branch.forced_sign || norm3(a[0], b[0], c[0]) == 0.0;
       if (branch.starts_at_zero) {
         // |v| = s |v / s| for s >= 0; what v has left at the start is rounding
         r[n] = n == 0 ? 0.0 : recurrence::norm3(a + 1, b + 1, c + 1, r + 1, u[0], n - 1);
@@ -168,15 +168,28 @@ double ProgramExpansion::duration_until_branch(double duration) {
     first_border = border;
   }
   if (first.index < 0) return duration;
-  // Zeros at the start stay known as long as the time does not move on: several branches may end together.
-  if (std::abs(first.duration) > kSameTime * std::abs(start_)) {
-    for (Branch& branch : branches_) branch.forced_sign = 0.0;
-  }
-  Branch& ending = branches_[static_cast<std::size_t>(first.index)];
-  ending.forced_sign = first.sign_after;
-  ending.forced_border = first_border;
+  // What is known of the start stays known as long as the time does not move on: several branches may end together.
+  if (std::abs(first.duration) > kSameTime * std::abs(start_)) forget_forced_branches();
+  force(branches_[static_cast<std::size_t>(first.index)], first.sign_after, first_border);
   remember_end(first.duration);
   return first.duration * row_direction_;
+}
+
+void ProgramExpansion::forget_forced_branches() {
+  for (Branch& branch : branches_) {
+    branch.forced_sign.reset();
+    branch.refuted = {};
+  }
+}
+
+void ProgramExpansion::force(Branch& branch, double sign, double border) {
+  const auto refuted = [&](double s) -> bool& { return branch.refuted[static_cast<std::size_t>(s + 1.0)]; };
+  if (branch.kind == Branch::Kind::sign) {
+    refuted(branch.sign) = true;
+    if (refuted(sign) && !refuted(0.0)) sign = 0.0;
+  }
+  branch.forced_sign = sign;
+  branch.forced_border = border;
 }
 
 void ProgramExpansion::remember_end(double s) {

@@ -64,9 +64,7 @@ void ProgramExpansion::reserve(int order) {
 void ProgramExpansion::expand(double t, const double* q, int order, double* coefficients) {
   assert(order >= 1 && order <= kMaxOrder);
   reserve(order);
-  if (!continues_at(t, q)) {
-    for (Branch& branch : branches_) branch.forced_sign = 0.0;
-  }
+  if (!continues_at(t, q)) forget_forced_branches();
   order_ = order;
   start_ = t;
   row_direction_ = direction_;

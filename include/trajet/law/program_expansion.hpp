@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <optional>
 #include <vector>
 
 #include "trajet/law/program.hpp"
@@ -69,6 +71,9 @@ class ProgramExpansion {
   void decide_interval(const Step& step, Branch& branch, double x);
   /// When the branch ends, from 0 to `duration` on the axis of the rows; of an interval, at which border.
   BranchTime end_of_branch(const Branch& branch, double duration, double& border) const;
+  void forget_forced_branches();
+  /// Makes the next expansion start at a zero of the branch's function and take the sign behind it.
+  static void force(Branch& branch, double sign, double border);
   void remember_end(double s);
   /// Whether (t, q) is where the last search for the end of a branch ended.
   bool continues_at(double t, const double* q) const;
