@@ -23,7 +23,7 @@ constexpr double kSameState = 1e-12;
 double ProgramExpansion::decide_sign(Branch& branch, int n) {
   if (n == 0) {
     const double value = row(branch.function)[0];
-    branch.starts_at_zero = branch.forced_sign || value == 0.0;
+    branch.starts_at_zero = branch.forced_sign.has_value() || value == 0.0;
     branch.sign = branch.forced_sign.value_or(trajet::sign(value));
   } else if (branch.sign == 0.0) {
     branch.sign = trajet::sign(row(branch.function)[n]);
@@ -98,7 +98,7 @@ void ProgramExpansion::run_branch(const Step& step, Branch& branch, int n) {
       break;
     case Opcode::norm:
       branch.sign = 1.0;
-      if (n == 0) branch.starts_at_zero = branch.forced_sign || norm3(a[0], b[0], c[0]) == 0.0;
+      if (n == 0) branch.starts_at_zero = branch.forced_sign.has_value() || norm3(a[0], b[0], c[0]) == 0.0;
       if (branch.starts_at_zero) {
         // |v| = s |v / s| for s >= 0; what v has left at the start is rounding
         r[n] = n == 0 ? 0.0 : recurrence::norm3(a + 1, b + 1, c + 1, r + 1, u[0], n - 1);

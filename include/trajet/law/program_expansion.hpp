@@ -51,9 +51,10 @@ class ProgramExpansion {
     int function = 0;   ///< row of the function that decides
     double sign = 0.0;  ///< the sign taken by the last expansion; of an interval always 1
     double lower = 0.0, upper = 0.0;
-    bool starts_at_zero = false;  ///< the last expansion started where the function is zero but for rounding
-    double forced_sign = 0.0;  ///< the next expansion starts at a zero of the function, and behind it this is the sign
-    double forced_border = 0.0;  ///< of an interval: the border that is crossed
+    bool starts_at_zero = false;        ///< the last expansion started where the function is zero but for rounding
+    std::optional<double> forced_sign;  ///< the next expansion starts at a zero of the function and takes this sign
+    double forced_border = 0.0;         ///< of an interval: the border that is crossed
+    std::array<bool, 3> refuted{};      ///< the signs -1, 0, 1 that have been tried at that zero in vain
   };
 
   /// An instruction with the rows it keeps for itself.
