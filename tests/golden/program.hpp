@@ -1,0 +1,85 @@
+#pragma once
+
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace trajet {
+
+/// An empty folder that lives as long as the object.
+class TemporaryFolder {
+ public:
+  TemporaryFolder() {
+    std::string name = (std::filesystem::temp_directory_path() / "trajet-test-XXXXXX").string();
+    path_ = mkdtemp(name.data());
+  }
+  ~TemporaryFolder() { std::filesystem::remove_all(path_); }
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+
+  std::string file(const std::string& name) const { return (path_ / name).string(); }
+
+  std::string write(const std::string& name, const std::string& text) const {
+    std::ofstream(file(name), std::ios::binary) << text;
+    return file(name);
+  }
+
+ private:
+  std::filesystem::path path_;
+};
+
+inline std::string read_text(const std::string& path) {
+  std::ostringstream text;
+  text << std::ifstream(path, std::ios::binary).rdbuf();
+  return text.str();
+}
+
+struct ProgramResult {
+  int exit_code = -1;  ///< 128 + signal if a signal ended it
+  std::string out;
+  std::string err;
+};
+
+/// Runs the program `trajet`. If `interrupt_after_line` is given, sends SIGINT once that file has more than one line.
+inline ProgramResult run_trajet(const std::vector<std::string>& arguments, const std::string& interrupt_after_line = "") {
+  const TemporaryFolder folder;
+  const std::string out = folder.file("out"), err = folder.file("err");
+  std::vector<std::string> words = arguments;
+  words.insert(words.begin(), TRAJET_PROGRAM);
+  std::vector<char*> argv;
+  for (std::string& word : words) argv.push_back(word.data());
+  argv.push_back(nullptr);
+
+  const pid_t child = fork();
+  if (child == 0) {
+    dup2(open(out.c_str(), O_CREAT | O_WRONLY, 0600), STDOUT_FILENO);
+    dup2(open(err.c_str(), O_CREAT | O_WRONLY, 0600), STDERR_FILENO);
+    execv(TRAJET_PROGRAM, argv.data());
+    _exit(126);
+  }
+  int status = 0;
+  if (!interrupt_after_line.empty()) {
+    const auto started = [&] { return read_text(interrupt_after_line).find('\n') != std::string::npos; };
+    bool ended = false;
+    while (!started() && !(ended = waitpid(child, &status, WNOHANG) == child))
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    if (!ended) kill(child, SIGINT);
+    if (!ended) waitpid(child, &status, 0);
+  } else {
+    waitpid(child, &status, 0);
+  }
+  const int code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  return {code, read_text(out), read_text(err)};
+}
+
+}  // namespace trajet
