@@ -21,7 +21,7 @@ struct MethodInfo {
   std::string_view name;
   std::vector<std::string_view> aliases;
   int order;        ///< of the global error; 0: chosen from the tolerance
-  int dense_order;  ///< of the Segments' global error; 0: chosen from the tolerance
+  int dense_order;  ///< p: the error within a Segment is O(h^(p+1)); 0: chosen from the tolerance
   StepControl control;
   std::string_view known_as;  ///< what the course or MATLAB calls it, with the feature's number
   std::string_view summary;   ///< one line

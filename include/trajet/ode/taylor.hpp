@@ -80,7 +80,7 @@ class TaylorStepper {
   }
 
   /// Writes the last step.
-  void fill_segment(Segment<kDimension>& segment) const {
+  void fill_segment(Segment<kDimension>& segment) {
     if (by_runge_kutta_) {
       runge_kutta_->fill_segment(segment);
       return;

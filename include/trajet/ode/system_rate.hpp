@@ -1,0 +1,22 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "trajet/ode/system.hpp"
+
+namespace trajet {
+
+/// Lets a run-time System be the rate of a stepper of run-time dimension. The System must outlive it.
+class SystemRate {
+ public:
+  explicit SystemRate(const System& system) : system_(&system) {}
+
+  void operator()(double t, const Eigen::VectorXd& q, Eigen::VectorXd& dq) const {
+    system_->rate(t, q.data(), dq.data());
+  }
+
+ private:
+  const System* system_;
+};
+
+}  // namespace trajet

@@ -1,0 +1,76 @@
+#include "trajet/ode/registry.hpp"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "trajet/ode/runge_kutta.hpp"
+#include "trajet/ode/system_rate.hpp"
+#include "trajet/ode/taylor.hpp"
+
+namespace trajet {
+namespace {
+
+/// Any Stepper of run-time dimension behind the interface.
+template <Stepper S>
+class WrappedStepper final : public AnyStepper {
+ public:
+  explicit WrappedStepper(S stepper) : stepper_(std::move(stepper)) {}
+
+  void start(double t, const State& q) override { stepper_.start(t, q); }
+  StepStatus advance(double t_limit) override { return stepper_.advance(t_limit); }
+  void fill_segment(Segment<>& segment) override { stepper_.fill_segment(segment); }
+  double time() const override { return stepper_.time(); }
+  const State& state() const override { return stepper_.state(); }
+  const StepStatistics& statistics() const override { return stepper_.statistics(); }
+
+ private:
+  S stepper_;
+};
+
+template <class Method>
+std::unique_ptr<AnyStepper> make_runge_kutta(System& system, const StepOptions& options) {
+  using S = RungeKutta<Method, SystemRate, Eigen::Dynamic>;
+  return std::make_unique<WrappedStepper<S>>(S(SystemRate(system), options));
+}
+
+std::unique_ptr<AnyStepper> make_taylor(System& system, const StepOptions& options) {
+  using S = TaylorStepper<SystemExpansion>;
+  return std::make_unique<WrappedStepper<S>>(S(SystemExpansion(system), options));
+}
+
+using Aliases = std::vector<std::string_view>;
+
+template <class Method>
+MethodInfo runge_kutta(std::string_view name, Aliases aliases, std::string_view known_as, std::string_view summary) {
+  const StepControl control = Method::kErrorControlled ? StepControl::adaptive : StepControl::fixed;
+  return {name,    std::move(aliases), Method::kOrder, Method::kDenseOrder,
+          control, known_as,           summary,        make_runge_kutta<Method>};
+}
+
+MethodInfo series(std::string_view name, Aliases aliases, std::string_view known_as, std::string_view summary) {
+  return {name, std::move(aliases), 0, 0, StepControl::adaptive, known_as, summary, make_taylor};
+}
+
+}  // namespace
+
+std::span<const MethodInfo> methods() {
+  static const std::array table = {
+      runge_kutta<EulerTableau>("euler", {}, "course: Euler, SEDEuler0 (F32)", "the rate at the start of the step"),
+      runge_kutta<MidpointTableau>("midpoint", {"rk2"}, "course: Runge-Kutta 2 (F29)", "the rate at its middle"),
+      runge_kutta<Rk4Tableau>("rk4", {}, "course: Runge-Kutta 4, SEDRK4t0 (F38)", "Kutta's classical method"),
+      runge_kutta<Dopri5Tableau>("dopri5", {"ode45"}, "MATLAB: ode45 (F59)", "Dormand and Prince's pair 5(4)"),
+      series("taylor", {"series"}, "course: Taylor series (F10)", "exact derivatives; order chosen from the tolerance"),
+  };
+  return table;
+}
+
+const MethodInfo* find_method(std::string_view name) {
+  const auto goes_by = [name](const MethodInfo& method) {
+    return method.name == name || std::ranges::find(method.aliases, name) != method.aliases.end();
+  };
+  const auto found = std::ranges::find_if(methods(), goes_by);
+  return found == methods().end() ? nullptr : &*found;
+}
+
+}  // namespace trajet
