@@ -113,9 +113,7 @@ inline Decision equal(const Interval& a, const Interval& b) {
   return decide(singleton(a) && singleton(b) && a.lower() == b.lower(), a.upper() < b.lower() || a.lower() > b.upper());
 }
 
-/// `a` where the condition holds, `b` where it fails, the hull of both where it is undecided. Applied to the
-/// coefficients of a Series, that encloses the derivatives of a continuous function; of a function that jumps it
-/// encloses the value only.
+/// `a` where the condition holds, `b` where it fails, the hull of both where it is undecided.
 inline Interval where(Decision condition, const Interval& a, const Interval& b) {
   return condition == Decision::yes ? a : condition == Decision::no ? b : hull(a, b);
 }
@@ -145,6 +143,51 @@ inline Interval atan2(const Interval& y, const Interval& x) {
                         std::atan2(y.upper(), x.lower()), std::atan2(y.upper(), x.upper())};
   return {detail::next_below(std::min(corners), 8.0), detail::next_above(std::max(corners), 8.0)};
 }
+
+/// Encloses a function of time with its first two derivatives on an interval of time: coefficient k encloses f^(k) /
+/// k!.
+///
+/// Where a choice between two functions is undecided, the coefficients hold what the function may do where it changes
+/// over: its rate is anything if it may jump, its second derivative is anything if it may have a corner.
+using IntervalJet = Series<Interval, 2>;
+
+/// A choice that may jump.
+inline IntervalJet where(Decision condition, const IntervalJet& a, const IntervalJet& b) {
+  if (condition != Decision::undecided) return condition == Decision::yes ? a : b;
+  IntervalJet c(hull(a[0], b[0]));
+  c[1] = c[2] = Interval::whole();
+  return c;
+}
+
+/// A choice between functions whose values agree where the condition changes.
+inline IntervalJet where_continuous(Decision condition, const IntervalJet& a, const IntervalJet& b) {
+  if (condition != Decision::undecided) return condition == Decision::yes ? a : b;
+  IntervalJet c(hull(a[0], b[0]));
+  c[1] = hull(a[1], b[1]);
+  c[2] = Interval::whole();
+  return c;
+}
+
+/// A choice between functions whose values and rates agree where the condition changes.
+inline IntervalJet where_smooth(Decision condition, const IntervalJet& a, const IntervalJet& b) {
+  return IntervalJet::from([&](int k) { return where(condition, a[k], b[k]); });
+}
+
+inline IntervalJet abs(const IntervalJet& x) { return where_continuous(less(x[0], Interval(0.0)), -x, x); }
+inline IntervalJet min(const IntervalJet& a, const IntervalJet& b) { return where_continuous(less(b[0], a[0]), b, a); }
+inline IntervalJet max(const IntervalJet& a, const IntervalJet& b) { return where_continuous(less(a[0], b[0]), b, a); }
+
+namespace detail {
+/// Constant between its jumps.
+inline IntervalJet step_function(const Interval& value) {
+  IntervalJet c(value);
+  if (!singleton(value)) c[1] = c[2] = Interval::whole();
+  return c;
+}
+}  // namespace detail
+
+inline IntervalJet sign(const IntervalJet& x) { return detail::step_function(sign(x[0])); }
+inline IntervalJet floor(const IntervalJet& x) { return detail::step_function(floor(x[0])); }
 
 }  // namespace trajet
 

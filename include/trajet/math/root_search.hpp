@@ -76,6 +76,8 @@ inline bool differ_in_sign(double a, double b) { return (a < 0.0) != (b < 0.0); 
 /// ends, or when a step no longer moves.
 template <class Evaluate>
 double refine_root(double a, double value_a, double b, double value_b, Evaluate&& evaluate) {
+  if (value_a == 0.0) return a;
+  if (value_b == 0.0) return b;
   // t = a - f(a) (b - a) / (f(b) - f(a)), the secant's root
   double t = a - value_a * ((b - a) / (value_b - value_a));
   double last_width = std::abs(b - a);
@@ -226,8 +228,8 @@ class RootSearch {
   }
 
   void give_up(double from, double to) {
-    if (cluster_) close_cluster(0, false);
-    if (stopped_) return;
+    if (cluster_) from = cluster_->first_time;
+    cluster_.reset();
     visit_(Root{0.5 * from + 0.5 * to, 0.5 * std::abs(to - from), RootKind::unresolved, last_sign_, 0, false, false});
     status_ = SearchStatus::unresolved;
     stopped_ = true;

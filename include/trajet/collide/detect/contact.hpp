@@ -1,0 +1,56 @@
+#pragma once
+
+#include <limits>
+
+#include "trajet/math/vector.hpp"
+
+namespace trajet {
+
+enum class ContactStatus {
+  separated,             ///< no contact
+  hit,                   ///< reaches the surface and goes on to its other side
+  graze,                 ///< touches without crossing
+  unresolved,            ///< contact can neither be shown nor excluded
+  overlapping_at_start,  ///< begins inside a solid
+};
+
+enum class ContactDirection {
+  entering,  ///< into a solid, or into the space within a ball's radius of an obstacle
+  leaving,   ///< out of it
+  through,   ///< a point through a thin obstacle
+};
+
+/// What is known of a pair of ball and obstacle before a search, so that Segments join without losing or doubling a
+/// contact.
+///
+/// A pair that has never been searched has the default. After a search that found nothing, and after a contact that the
+/// body passed through, ContactResult::memory holds for what follows; after a contact that it bounced off, `rebounded`
+/// of it.
+struct ContactMemory {
+  /// +1 outside a solid or before a thin obstacle, -1 inside or behind, 0 unknown.
+  int side = 0;
+  /// The time of a contact that was reported last. A search that begins at this very time does not report it again.
+  double contact_time = std::numeric_limits<double>::quiet_NaN();
+  /// Within this gap (m) a search that begins at `contact_time` is still in that contact.
+  double tolerance = 0.0;
+};
+
+/// The memory after a contact at which the body stayed on the side that it came from.
+inline ContactMemory rebounded(ContactMemory memory) {
+  memory.side = -memory.side;
+  return memory;
+}
+
+/// The first contact of a ball with an obstacle. World frame, SI units.
+struct ContactResult {
+  ContactStatus status = ContactStatus::separated;
+  double time = 0.0;                   ///< of the contact; for `unresolved`, from where on nothing is known
+  double time_error_bound = 0.0;       ///< s: of the root, and of the Segment's error over the approach speed
+  Vector3 point = Vector3::Zero();     ///< of contact, on the obstacle
+  Vector3 normal = Vector3::Zero();    ///< unit, of the obstacle at the point, towards the side that the body came from
+  Vector3 position = Vector3::Zero();  ///< of the ball's centre
+  ContactDirection direction = ContactDirection::entering;
+  ContactMemory memory;  ///< for what follows, if the body passes through
+};
+
+}  // namespace trajet

@@ -1,0 +1,21 @@
+#include "contact_report.hpp"
+#include "trajet/collide/detect/table.hpp"
+#include "trajet/event/linear_function.hpp"
+#include "trajet/geom/distance.hpp"
+
+namespace trajet {
+
+ContactResult first_contact_with(const Plane& plane, const MovingBall& ball, const ContactMemory& memory) {
+  // gap = n . x - n . p0 - r
+  const LinearFunction height(ball.path, plane.normal, -plane.normal.dot(plane.point) - ball.radius);
+  const auto [begin, end] = detail::tau_interval(ball);
+  const PolynomialFunction gap = height.between(begin, end, detail::handled_tolerance(memory, ball));
+  constexpr bool kIsSolid = true;
+  const auto contact =
+      detail::ContactSearch(gap, kIsSolid, memory, detail::is_handled(memory, ball), [](double) { return true; }).run();
+  return detail::report(gap, contact, ball, kIsSolid, [&](const Vector3& position) {
+    return detail::SurfacePoint{closest_point(plane, position), plane.normal};
+  });
+}
+
+}  // namespace trajet

@@ -1,0 +1,101 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "contact_search.hpp"
+#include "trajet/collide/detect/contact.hpp"
+#include "trajet/collide/detect/table.hpp"
+#include "trajet/geom/shapes.hpp"
+#include "trajet/math/polynomial.hpp"
+
+namespace trajet::detail {
+
+/// The part of the path's own time in which a ball is searched.
+struct TauInterval {
+  double begin;
+  double end;
+};
+
+inline TauInterval tau_interval(const MovingBall& ball) {
+  return {ball.from - ball.path.t0(), ball.to - ball.path.t0()};
+}
+
+/// Whether a search begins at the contact that was reported last.
+inline bool is_handled(const ContactMemory& memory, const MovingBall& ball) { return memory.contact_time == ball.from; }
+
+/// The gap below which a search that begins in a handled contact still is in it.
+inline double handled_tolerance(const ContactMemory& memory, const MovingBall& ball) {
+  return is_handled(memory, ball) ? memory.tolerance : 0.0;
+}
+
+/// Whether the ball stays clear of the box around `bounds` grown by its radius: cheap, decides most pairs.
+inline bool stays_clear(const BoundingBall& bounds, const MovingBall& ball) {
+  const auto [begin, end] = tau_interval(ball);
+  // Far above the rounding of the sums below.
+  constexpr double kMargin = 1e-12;
+  for (int i = 0; i < 3; ++i) {
+    const Range range = ball.path.range(i, begin, end);
+    const double reach =
+        (bounds.radius + ball.radius + std::abs(bounds.center[i])) * kMargin + bounds.radius + ball.radius;
+    if (range.lower > bounds.center[i] + reach || range.upper < bounds.center[i] - reach) return true;
+  }
+  return false;
+}
+
+/// A point on an obstacle.
+struct SurfacePoint {
+  Vector3 point;
+  Vector3 normal;  ///< unit, to the positive side
+};
+
+/// The result for a pair that is known to stay apart, the ball on `side` of the obstacle.
+inline ContactResult stays_separated(int side) {
+  ContactResult result;
+  result.memory.side = side;
+  return result;
+}
+
+/// The result for what the search of `gap` found. `place(position)` gives the SurfacePoint for the ball's centre there.
+template <class F, class Place>
+ContactResult report(const F& gap, const GapContact& contact, const MovingBall& ball, bool is_solid, Place&& place) {
+  const PointPath& path = ball.path;
+  ContactResult result;
+  result.status = contact.status;
+  result.memory.side = contact.side_after;
+  if (contact.status == ContactStatus::separated) {
+    if (contact.stays_at_zero) {
+      result.memory.contact_time = ball.to;
+      result.memory.tolerance = gap.at(gap.end()).tolerance;
+    }
+    return result;
+  }
+  // The ends exactly, so that a search that goes on from there knows the contact.
+  const double time = path.t0() + contact.tau;
+  result.time = contact.tau == gap.begin() ? ball.from
+                : contact.tau == gap.end()
+                    ? ball.to
+                    : std::clamp(time, std::min(ball.from, ball.to), std::max(ball.from, ball.to));
+  result.position = path.value(contact.tau);
+  const SurfacePoint surface = place(result.position);
+  result.point = surface.point;
+  result.normal = contact.side_before < 0 ? Vector3(-surface.normal) : surface.normal;
+  result.direction = !is_solid                 ? ContactDirection::through
+                     : contact.side_before > 0 ? ContactDirection::entering
+                                               : ContactDirection::leaving;
+
+  // dt = dx / |gap rate| at a crossing, dx = |gap''| dt^2 / 2 at a graze
+  const FunctionSample sample = gap.at(contact.tau);
+  const double position_error = path.error_bound().norm();
+  const double by_rate = position_error / std::abs(sample.jet.rate);
+  const double by_curvature = std::sqrt(2.0 * position_error / std::abs(sample.jet.curvature));
+  const double error = position_error > 0.0 ? std::min(by_rate, by_curvature) : 0.0;
+  const double time_rounding = 2.0 * kUnitRoundoff * (std::abs(path.t0()) + std::abs(result.time));
+  result.time_error_bound = contact.root_error + error + time_rounding;
+
+  result.memory.contact_time = result.time;
+  result.memory.tolerance = std::max(sample.tolerance, 2.0 * time_rounding * std::abs(sample.jet.rate));
+  return result;
+}
+
+}  // namespace trajet::detail
