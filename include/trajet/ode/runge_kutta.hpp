@@ -51,6 +51,8 @@ class RungeKuttaBase {
  protected:
   using Step = detail::RungeKuttaStep<Method, Dim>;
   static constexpr int kDegree = Method::kTableau.kDenseDegree;
+  // With fixed steps, the last stage waits until the next step or a Segment asks for it.
+  static constexpr std::size_t kComputedStages = Method::kErrorControlled ? Step::kStages : Step::kStages - 1;
   // q1 is rounded twice, and so are the polynomials' values near it.
   static constexpr double kRounding = 2.0 * std::numeric_limits<double>::epsilon();
 
@@ -83,7 +85,7 @@ class RungeKuttaBase {
         evaluate(step.t0, step.q0, step.k[0]);
       }
       const StepStatus status = attempt(step);
-      if (status == StepStatus::ok) keep(step, std::make_index_sequence<Step::kStages>{});
+      if (status == StepStatus::ok) keep(step, std::make_index_sequence<kComputedStages>{});
       return status;
     } else {
       rotate();

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <utility>
+
+#include "trajet/ode/integrate.hpp"
+#include "trajet/ode/law_expansion.hpp"
+#include "trajet/ode/runge_kutta.hpp"
+#include "trajet/ode/taylor.hpp"
+#include "trajet/ode/trajectory.hpp"
+
+namespace trajet {
+
+/// Makes the steppers of a Runge-Kutta method. A law's State is Eigen::Matrix<double, Dim, 1>.
+template <class Method>
+struct RungeKuttaMethod {
+  template <int Dim, class Law>
+  static auto make_stepper(Law law, int, const StepOptions& options) {
+    return RungeKutta<Method, Law, Dim>(std::move(law), options);
+  }
+};
+
+/// The methods as types, for a choice at compile time: solve<Rk4>(law, …). The registry has the same for run time.
+using Euler = RungeKuttaMethod<EulerTableau>;
+using Midpoint = RungeKuttaMethod<MidpointTableau>;
+using Rk4 = RungeKuttaMethod<Rk4Tableau>;
+using Dopri5 = RungeKuttaMethod<Dopri5Tableau>;
+struct Taylor {
+  template <int Dim, class Law>
+  static auto make_stepper(Law law, int dimension, const StepOptions& options) {
+    using Expansion = LawExpansion<Law, Dim>;
+    return TaylorStepper<Expansion>(Expansion(std::move(law), dimension), options);
+  }
+};
+
+/// What solve() needs beside the problem.
+struct SolveOptions : StepOptions {
+  long max_steps = kDefaultMaxSteps;
+};
+
+/// Solves dq/dt = law(t, q) from q(t0) = q0 to `t_end`, before or after t0, and returns q as a function of time.
+///
+/// `law(t, q, dq)` writes the rate into dq. It is a generic lambda: t is a scalar, q and dq are Eigen vectors of any
+/// number type; the Runge-Kutta methods call it with double, the Taylor method with power series. What fails
+/// numerically is told by the Trajectory's status; wrong options throw std::invalid_argument.
+template <class Method = Taylor, class Law, class Vector>
+auto solve(Law law, double t0, const Eigen::MatrixBase<Vector>& q0, double t_end, const SolveOptions& options = {}) {
+  constexpr int kDim = Vector::RowsAtCompileTime;
+  auto stepper = Method::template make_stepper<kDim>(std::move(law), static_cast<int>(q0.rows()), options);
+  Trajectory<kDim> trajectory;
+  trajectory.start_time = t0;
+  trajectory.start = q0;
+  const auto keep = [&trajectory](auto& s) {
+    trajectory.segments.emplace_back();
+    s.fill_segment(trajectory.segments.back());
+  };
+  trajectory.status = integrate(stepper, t0, trajectory.start, t_end, options.max_steps, keep).status;
+  trajectory.statistics = stepper.statistics();
+  return trajectory;
+}
+
+}  // namespace trajet

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <algorithm>
+#include <cassert>
+#include <stdexcept>
+#include <vector>
+
+#include "trajet/ode/integrate.hpp"
+#include "trajet/ode/segment.hpp"
+
+namespace trajet {
+
+/// A solution as a function of time: the Segments of an integration, in its order.
+template <int Dim>
+struct Trajectory {
+  using State = Eigen::Matrix<double, Dim, 1>;
+
+  double start_time = 0.0;
+  State start;
+  std::vector<Segment<Dim>> segments;
+  IntegrationStatus status = IntegrationStatus::finished;
+  StepStatistics statistics;
+
+  /// How far the solution goes; the end asked for if `status` is `finished`.
+  double end_time() const { return segments.empty() ? start_time : segments.back().t1(); }
+
+  /// The state at the end.
+  State end() const { return state(end_time()); }
+
+  /// The state at any time from the start to the end. Throws std::out_of_range elsewhere.
+  State state(double t) const {
+    const double direction = end_time() < start_time ? -1.0 : 1.0;
+    if (!((t - start_time) * direction >= 0.0 && (end_time() - t) * direction >= 0.0))
+      throw std::out_of_range("the time lies outside the trajectory");
+    if (segments.empty()) return start;
+    const auto ends_before = [direction](const Segment<Dim>& segment, double time) {
+      return (time - segment.t1()) * direction > 0.0;
+    };
+    return std::lower_bound(segments.begin(), segments.end(), t, ends_before)->state(t);
+  }
+};
+
+}  // namespace trajet
