@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <numbers>
 
 #include "trajet/io/units.hpp"
@@ -65,72 +64,11 @@ constexpr std::array kCommonUnits{
     NamedUnit{"1", {1, 1, kDimensionless}},
 };
 
-const Unit* find_common(std::string_view name) {
-  for (const NamedUnit& entry : kCommonUnits)
-    if (entry.name == name) return &entry.unit;
-  return nullptr;
-}
-
-bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
-bool is_digit(char c) { return c >= '0' && c <= '9'; }
-
-/// Takes a name off the front of `text`: letters, or one of the signs for degree, per cent and one.
-std::string_view take_name(std::string_view& text) {
-  std::size_t length = 0;
-  while (length < text.size() && is_letter(text[length])) ++length;
-  for (const std::string_view sign : {"°", "%", "1"})
-    if (length == 0 && text.starts_with(sign)) length = sign.size();
-  const std::string_view name = text.substr(0, length);
-  text.remove_prefix(length);
-  return name;
-}
-
-/// Takes a power off the front of `text`: `2`, `^2`, `-2`, `^-2`; 1 if there is none.
-int take_power(std::string_view& text) {
-  std::string_view digits = text.starts_with('^') ? text.substr(1) : text;
-  int power = 1;
-  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), power);
-  if (error == std::errc()) text.remove_prefix(static_cast<std::size_t>(end - text.data()));
-  return power;
-}
-
-/// `product` times `factor` to the `power`.
-void multiply(Unit& product, const Unit& factor, int power) {
-  for (int i = 0; i < power; ++i) product.numerator *= factor.numerator, product.denominator *= factor.denominator;
-  for (int i = 0; i > power; --i) product.numerator *= factor.denominator, product.denominator *= factor.numerator;
-  for (std::size_t i = 0; i < Dimension::kBaseUnits; ++i)
-    product.dimension.powers[i] += power * factor.dimension.powers[i];
-}
-
 }  // namespace
 
-std::optional<Unit> common_unit(std::string_view text) {
-  // unit = factor { (blank | "." | "*" | "/") factor };  factor = name [ ["^"] integer ].  "/" divides by one factor
-  // only.
-  constexpr int kMaxPower = 4;  // higher ones are left to UDUNITS-2, which knows its limits
-  Unit unit;
-  int sign = 1;
-  while (true) {
-    const std::string_view name = take_name(text);
-    const Unit* factor = find_common(name);
-    if (factor == nullptr) return std::nullopt;
-    const bool is_number = is_digit(name.front());
-    const int power = is_number ? 1 : take_power(text);
-    if (power > kMaxPower || power < -kMaxPower) return std::nullopt;
-    multiply(unit, *factor, sign * power);
-    if (text.empty()) return unit;
-
-    const std::size_t next = text.find_first_not_of(' ');
-    const bool blank = next != 0;
-    text.remove_prefix(std::min(next, text.size()));
-    sign = text.starts_with('/') ? -1 : 1;
-    if (text.starts_with('/') || text.starts_with('*') || text.starts_with('.')) {
-      text.remove_prefix(1);
-      text.remove_prefix(std::min(text.find_first_not_of(' '), text.size()));
-    } else if (!blank) {
-      return std::nullopt;
-    }
-  }
+const Unit* common_unit(std::string_view name) {
+  const auto found = std::ranges::find(kCommonUnits, name, &NamedUnit::name);
+  return found == kCommonUnits.end() ? nullptr : &found->unit;
 }
 
 }  // namespace trajet::detail

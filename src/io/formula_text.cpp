@@ -28,6 +28,15 @@ Expression read_quantity(const QuantityText& quantity, const SourceLocation& whe
   return Expression::number(value, where);
 }
 
+bool is_unit(std::string_view text) {
+  try {
+    parse_unit(text);
+    return true;
+  } catch (const InputError&) {
+    return false;
+  }
+}
+
 /// "500m/s": a number with a unit right behind it is no expression either; say what is missing.
 void refuse_missing_blank(std::string_view text, const SourceLocation& where) {
   double number = 0.0;
@@ -35,7 +44,8 @@ void refuse_missing_blank(std::string_view text, const SourceLocation& where) {
   if (error != std::errc() || end == text.data() + text.size()) return;
   const auto length = static_cast<std::size_t>(end - text.data());
   const std::string_view rest = text.substr(length);
-  if (common_unit(rest))
+  const bool is_name = (rest.front() >= 'a' && rest.front() <= 'z') || (rest.front() >= 'A' && rest.front() <= 'Z');
+  if (is_name && is_unit(rest))
     throw InputError(advanced(where, length), "a blank is missing between number and unit, write \"" +
                                                   std::string(text.substr(0, length)) + " " + std::string(rest) + "\"");
 }

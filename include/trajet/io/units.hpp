@@ -37,11 +37,13 @@ struct Unit {
   Dimension dimension;
 };
 
-/// The unit that `text` names: `m/s`, `km/h`, `deg`, `rpm`, `grain`, `kg m^2`: what UDUNITS-2 knows, with its
-/// spellings, and `deg` (degree), `rev` (revolution), `mph` (mile per hour).
+/// The unit that `text` names: `m/s`, `km/h`, `m s^-2`, `J/(kg K)`, `deg`, `rpm`, `grain`.
+///
+/// Products (blank, `.`, `*`), quotients (`/`, which divides by the one factor that follows) and whole powers (`^2`,
+/// `2`, `²`) of names; the names are those of UDUNITS-2, and `deg` (degree), `rev` (revolution), `mph` (mile per hour).
 ///
 /// Throws InputError without a place for unknown units and for those that are no multiple of SI units: temperatures
-/// with an offset (`degC`), dates, logarithms. Thread-safe.
+/// with an offset (`degC`), logarithms. Thread-safe.
 Unit parse_unit(std::string_view text);
 
 /// A quantity string in its two parts.
@@ -55,10 +57,11 @@ struct QuantityText {
 std::optional<QuantityText> split_quantity(std::string_view text);
 
 namespace detail {
-/// The unit according to UDUNITS-2, whose database takes 5 ms to load, once.
-Unit udunits_unit(std::string_view text);
-/// The same for products and powers of common units, without the database; nothing where UDUNITS-2 must be asked.
-std::optional<Unit> common_unit(std::string_view text);
+/// A single unit, prefix and all, according to UDUNITS-2, whose database takes 5 ms to load, once; nothing if it knows
+/// none of that name. Throws InputError if it is no multiple of SI units.
+std::optional<Unit> udunits_unit(std::string_view name);
+/// A single common unit without that database; nullptr if it is not among them.
+const Unit* common_unit(std::string_view name);
 }  // namespace detail
 
 }  // namespace trajet
