@@ -1,0 +1,30 @@
+#pragma once
+
+#include "trajet/law/evaluate.hpp"
+#include "trajet/law/program.hpp"
+#include "trajet/law/program_expansion.hpp"
+#include "trajet/ode/system.hpp"
+
+namespace trajet {
+
+/// A compiled law as the problem dq/dt = g(q, t): the program's inputs are t and q, its outputs dq.
+class ProgramSystem : public System {
+ public:
+  explicit ProgramSystem(const Program& program) : expansion_(program), evaluator_(expansion_.program()) {}
+  ProgramSystem(const ProgramSystem&) = delete;
+  ProgramSystem& operator=(const ProgramSystem&) = delete;
+
+  int dimension() const override { return expansion_.dimension(); }
+  void rate(double t, const double* q, double* dq) const override { evaluator_(t, q, dq); }
+  void expand(double t, const double* q, int order, double* coefficients) override {
+    expansion_.expand(t, q, order, coefficients);
+  }
+  double duration_until_branch(double duration) override { return expansion_.duration_until_branch(duration); }
+  int polynomial_degree() const override { return trajet::polynomial_degree(expansion_.program()); }
+
+ private:
+  ProgramExpansion expansion_;
+  mutable Evaluator<double> evaluator_;  // its slots are scratch
+};
+
+}  // namespace trajet

@@ -1,0 +1,83 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "trajet/geom/shapes.hpp"
+#include "trajet/law/program.hpp"
+#include "trajet/ode/registry.hpp"
+#include "trajet/sim/run_result.hpp"
+#include "trajet/sim/scene.hpp"
+
+namespace trajet {
+
+/// A scene with numbers: all names resolved, all values checked, all laws compiled. What the simulation runs.
+///
+/// Bodies, extra states and events that refer to each other form a group, which is integrated together; groups know nothing
+/// of each other and keep steps of their own. The state of a group is, for each of its bodies, position and velocity
+/// (m, m/s; world frame), then its extra states. Programs take t and that state.
+struct World {
+  /// Components of a body's part of the state.
+  static constexpr int kBodySize = 6;
+
+  struct Body {
+    std::string name;
+    double radius = 0.0;  ///< m; 0: a point
+    int group = 0;
+    int offset = 0;  ///< of the position in the group's state; the velocity follows it
+    std::optional<Program> mass;  ///< kg, one output
+    SourceLocation where{};
+  };
+
+  struct Obstacle {
+    std::string name;
+    Shape shape;
+    OnHit on_hit = OnHit::stop;
+    double restitution = 1.0;
+  };
+
+  struct ExtraState {
+    std::string name;
+    int group = 0;
+    int offset = 0;  ///< in the group's state
+  };
+
+  struct Event {
+    std::string name;
+    int group = 0;
+    Program when;  ///< one output
+    CrossingDirection direction = CrossingDirection::any;
+    EventAction action = EventAction::record;
+    Program set;               ///< new values, in the order of `targets`
+    std::vector<int> targets;  ///< offsets in the group's state
+  };
+
+  struct Group {
+    Program law;  ///< outputs: the rate of the group's state
+    Eigen::VectorXd start;
+    std::vector<int> bodies;  ///< indices into World::bodies
+    std::vector<int> events;  ///< indices into World::events
+  };
+
+  std::string scene;  ///< file name
+  std::string title;
+  double start = 0.0;   ///< s
+  double end = 0.0;     ///< s; before `start` for a run backward in time
+  double sample = 0.0;  ///< s, > 0
+  const MethodInfo* method = nullptr;
+  StepOptions step_options;
+  long max_steps = 0;
+  Locator locate = Locator::polynomial;
+  std::vector<NamedValue> parameters;
+  std::vector<Body> bodies;
+  std::vector<Obstacle> obstacles;
+  std::vector<ExtraState> states;
+  std::vector<Event> events;
+  std::vector<Group> groups;
+};
+
+/// Gives a scene its numbers. Throws InputError that points at the place, FileError for a table that cannot be read.
+World make_world(const Scene& scene);
+
+}  // namespace trajet

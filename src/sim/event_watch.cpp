@@ -1,0 +1,60 @@
+#include "event_watch.hpp"
+
+#include <algorithm>
+
+#include "trajet/math/number.hpp"
+
+namespace trajet {
+namespace {
+
+/// The components of the state that a program reads, in rising order.
+std::vector<int> read_components(const Program& program) {
+  std::vector<bool> is_read(static_cast<std::size_t>(program.slot_count), false);
+  for (const Instruction& instruction : program.instructions)
+    for (const int slot : {instruction.a, instruction.b, instruction.c}) is_read[static_cast<std::size_t>(slot)] = true;
+  for (const int slot : program.outputs) is_read[static_cast<std::size_t>(slot)] = true;
+  std::vector<int> components;
+  for (int slot = 1; slot < program.input_count; ++slot)
+    if (is_read[static_cast<std::size_t>(slot)]) components.push_back(slot - 1);
+  return components;
+}
+
+}  // namespace
+
+EventWatch::EventWatch(const Program& when, CrossingDirection direction)
+    : direction_(direction),
+      inputs_(read_components(when)),
+      state_(static_cast<std::size_t>(when.input_count - 1)),
+      values_(when),
+      enclosures_(when) {}
+
+void EventWatch::restart(double t, const double* q) {
+  double value = 0.0;
+  values_(t, q, &value);
+  sign_ = static_cast<int>(sign(value));
+}
+
+bool EventWatch::wanted(int direction) const {
+  return direction_ == CrossingDirection::any || (direction_ == CrossingDirection::rising) == (direction > 0);
+}
+
+void EventWatch::search(const Segment<>& segment, double from) {
+  next_ = {};
+  const Path<Eigen::Dynamic> path(segment, inputs_);
+  const ComposedFunction function(path, Function{&enclosures_, &inputs_, &state_}, from - segment.t0(), segment.duration());
+  visit_roots(function, [&](const Root& root) {
+    if (root.kind == RootKind::unresolved) {
+      next_ = {true, segment.t0() + root.time, 0, true};
+      return false;
+    }
+    const int before = root.at_begin ? sign_ : root.sign_before;
+    const int after = root.sign_after;
+    if (after == 0) return false;  // at the end of the Segment: the next one tells
+    sign_ = after;
+    if (root.kind == RootKind::touch || before == 0 || before == after || !wanted(after)) return true;
+    next_ = {true, segment.t0() + root.time, after, false};
+    return false;
+  });
+}
+
+}  // namespace trajet

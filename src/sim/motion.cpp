@@ -1,0 +1,140 @@
+#include "motion.hpp"
+
+#include <utility>
+
+#include "trajet/event/path.hpp"
+
+namespace trajet {
+
+Motion::Motion(const World& world, int group) : world_(world), group_(group) {
+  for (const int body : this->group().bodies)
+    for (std::size_t obstacle = 0; obstacle < world.obstacles.size(); ++obstacle)
+      pairs_.push_back({body, static_cast<int>(obstacle)});
+  for (const int event : this->group().events) {
+    const World::Event& definition = world.events[static_cast<std::size_t>(event)];
+    watches_.push_back({event, EventWatch(definition.when, definition.direction)});
+  }
+  use_law();
+  restart(world.start, this->group().start);
+}
+
+void Motion::use_law() {
+  if (stepper_) finished_steppers_ = statistics();
+  Program law = group().law;
+  for (const RestingContact& contact : resting_) law = hold(law, contact);
+  stepper_.reset();
+  system_ = std::make_unique<ProgramSystem>(law);
+  stepper_ = world_.method->make(*system_, world_.step_options);
+  release_watches_.clear();
+  for (std::size_t i = 0; i < resting_.size(); ++i) {
+    const Pair& resting_pair = pair(resting_[i].pair);
+    const Shape& shape = world_.obstacles[static_cast<std::size_t>(resting_pair.obstacle)].shape;
+    for (const Program& condition : release_conditions(group().law, shape, resting_[i]))
+      release_watches_.push_back({static_cast<int>(i), EventWatch(condition, CrossingDirection::rising)});
+  }
+}
+
+void Motion::restart(double t, const Eigen::VectorXd& q) {
+  stepper_->start(t, q);
+  end_state_ = q;
+  segment_.resize(static_cast<int>(q.size()), 0);
+  segment_.set_interval(t, t);
+  segment_.coefficients().col(0) = q;
+  segment_.error_bound().setZero();
+  for (Watch& watch : watches_) watch.watch.restart(t, q.data());
+  for (ReleaseWatch& release : release_watches_) release.watch.restart(t, q.data());
+  next_ = {t};
+}
+
+StepStatus Motion::advance() {
+  const StepStatus status = stepper_->advance(world_.end);
+  if (status != StepStatus::ok) return status;
+  stepper_->fill_segment(segment_);
+  end_state_ = stepper_->state();
+  const double from = segment_.t0();
+  for (Pair& pair : pairs_) search_contact(pair, from);
+  for (Watch& watch : watches_) watch.watch.search(segment_, from);
+  for (ReleaseWatch& release : release_watches_) release.watch.search(segment_, from);
+  find_next();
+  return status;
+}
+
+void Motion::search_contact(Pair& pair, double from) {
+  pair.contact = {};
+  if (pair.resting) return;
+  const World::Body& body = world_.bodies[static_cast<std::size_t>(pair.body)];
+  const World::Obstacle& obstacle = world_.obstacles[static_cast<std::size_t>(pair.obstacle)];
+  const PointPath path(segment_, body.offset);
+  pair.contact = first_contact(obstacle.shape, {path, body.radius, from, segment_.t1()}, pair.memory);
+  if (pair.contact.status == ContactStatus::separated) pair.memory = pair.contact.memory;
+}
+
+void Motion::find_next() {
+  // at one time, events come first: an impact that ends the run must not hide them
+  next_ = {segment_.t1()};
+  const double direction = segment_.t1() < segment_.t0() ? -1.0 : 1.0;
+  const auto consider = [&](double time, Incident::Kind kind, int index) {
+    const double ahead = direction * (next_.time - time);
+    if (ahead > 0.0 || (ahead == 0.0 && next_.kind == Incident::Kind::segment_end)) next_ = {time, kind, index};
+  };
+  for (const Watch& watch : watches_)
+    if (watch.watch.next().found) consider(watch.watch.next().time, Incident::Kind::event, watch.event);
+  for (const ReleaseWatch& release : release_watches_)
+    if (release.watch.next().found) consider(release.watch.next().time, Incident::Kind::leave, release.resting);
+  for (std::size_t i = 0; i < pairs_.size(); ++i)
+    if (pairs_[i].contact.status != ContactStatus::separated)
+      consider(pairs_[i].contact.time, Incident::Kind::contact, static_cast<int>(i));
+}
+
+const EventWatch::Crossing& Motion::crossing(int event) const {
+  for (const Watch& watch : watches_)
+    if (watch.event == event) return watch.watch.next();
+  std::abort();  // the event is one of the group's
+}
+
+void Motion::pass_event(int event) {
+  for (Watch& watch : watches_)
+    if (watch.event == event) watch.watch.search(segment_, watch.watch.next().time);
+  find_next();
+}
+
+void Motion::pass_contact(int index) {
+  Pair& pair = pairs_[static_cast<std::size_t>(index)];
+  pair.memory = pair.contact.memory;
+  search_contact(pair, pair.contact.time);
+  find_next();
+}
+
+void Motion::begin_rest(int index, const Vector3& normal) {
+  Pair& pair = pairs_[static_cast<std::size_t>(index)];
+  const World::Body& body = world_.bodies[static_cast<std::size_t>(pair.body)];
+  pair.resting = true;
+  resting_.push_back({index, body.offset, normal});
+  use_law();
+}
+
+int Motion::end_rest(int resting) {
+  const int index = resting_[static_cast<std::size_t>(resting)].pair;
+  pairs_[static_cast<std::size_t>(index)].resting = false;
+  resting_.erase(resting_.begin() + resting);
+  use_law();
+  return index;
+}
+
+Eigen::VectorXd Motion::state(double t) const { return t == segment_.t1() ? end_state_ : segment_.state(t); }
+
+Eigen::VectorXd Motion::rate(double t, const Eigen::VectorXd& q) const {
+  Eigen::VectorXd dq(q.size());
+  system_->rate(t, q.data(), dq.data());
+  return dq;
+}
+
+StepStatistics Motion::statistics() const {
+  StepStatistics sum = finished_steppers_;
+  sum.steps += stepper_->statistics().steps;
+  sum.rejected_steps += stepper_->statistics().rejected_steps;
+  sum.law_evaluations += stepper_->statistics().law_evaluations;
+  return sum;
+}
+
+}  // namespace trajet

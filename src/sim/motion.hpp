@@ -1,0 +1,105 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "event_watch.hpp"
+#include "resting_contact.hpp"
+#include "trajet/collide/detect/table.hpp"
+#include "trajet/ode/registry.hpp"
+#include "trajet/sim/program_system.hpp"
+#include "trajet/sim/world.hpp"
+
+namespace trajet {
+
+/// The next thing that happens to a motion on its current Segment.
+struct Incident {
+  enum class Kind { segment_end, event, contact, leave };
+  double time = 0.0;
+  Kind kind = Kind::segment_end;
+  int index = 0;  ///< of the event in World::events; of the pair for a contact, of the resting contact for a leave
+};
+
+/// One group of a World on its way: its stepper, the Segment it is on, and all it looks out for.
+///
+/// It advances by Segments; on each, `next()` is the first incident behind what was handled. Whoever handles an incident says
+/// how the motion goes on: `pass_event`, `pass_contact`, or `restart` from a new state.
+class Motion {
+ public:
+  /// A body of the group and an obstacle.
+  struct Pair {
+    int body;      ///< in World::bodies
+    int obstacle;  ///< in World::obstacles
+    bool resting = false;
+    ContactMemory memory{};
+    ContactResult contact{};  ///< the next one on the current Segment
+  };
+
+  Motion(const World& world, int group);
+
+  /// Makes the next Segment, from the current time on.
+  StepStatus advance();
+  const Incident& next() const { return next_; }
+
+  /// The event was noticed and changed nothing.
+  void pass_event(int event);
+  /// The body goes through the obstacle, or past it.
+  void pass_contact(int pair);
+  /// Goes on from state `q` at time `t`, on which the current Segment ends.
+  void restart(double t, const Eigen::VectorXd& q);
+  /// The body of the pair stays on the obstacle, whose normal is given, from the next restart on.
+  void begin_rest(int pair, const Vector3& normal);
+  /// From the next restart on, the resting contact of that index has ended. Returns its pair.
+  int end_rest(int resting);
+  /// After a restart: the body has bounced off.
+  void rebound(int pair, const ContactMemory& memory) { pairs_[static_cast<std::size_t>(pair)].memory = memory; }
+
+  /// After a restart that moved bodies elsewhere.
+  void forget_contacts() {
+    for (Pair& pair : pairs_) pair.memory = {};
+  }
+
+  const World::Group& group() const { return world_.groups[static_cast<std::size_t>(group_)]; }
+  /// What the watch of an event of the group has found.
+  const EventWatch::Crossing& crossing(int event) const;
+  const Pair& pair(int index) const { return pairs_[static_cast<std::size_t>(index)]; }
+  const std::vector<RestingContact>& resting() const { return resting_; }
+  const Segment<>& segment() const { return segment_; }
+  /// The state at a time on the current Segment.
+  Eigen::VectorXd state(double t) const;
+  /// The law at a state: dq/dt, contact forces included.
+  Eigen::VectorXd rate(double t, const Eigen::VectorXd& q) const;
+  bool finished() const { return segment_.t1() == world_.end; }
+  StepStatistics statistics() const;
+
+ private:
+  struct Watch {
+    int event;  ///< in World::events
+    EventWatch watch;
+  };
+
+  struct ReleaseWatch {
+    int resting;  ///< in resting_
+    EventWatch watch;
+  };
+
+  /// Begins anew under the group's law, with the bodies held that rest.
+  void use_law();
+  void search_contact(Pair& pair, double from);
+  void find_next();
+
+  const World& world_;
+  int group_;
+  std::unique_ptr<ProgramSystem> system_;
+  std::unique_ptr<AnyStepper> stepper_;
+  StepStatistics finished_steppers_;
+  Segment<> segment_;
+  Eigen::VectorXd end_state_;
+  std::vector<Pair> pairs_;
+  std::vector<Watch> watches_;
+  std::vector<RestingContact> resting_;
+  std::vector<ReleaseWatch> release_watches_;
+  Incident next_;
+};
+
+}  // namespace trajet

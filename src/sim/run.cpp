@@ -1,0 +1,21 @@
+#include "trajet/sim/run.hpp"
+
+#include <chrono>
+
+#include "simulation.hpp"
+#include "trajet/sim/world.hpp"
+
+namespace trajet {
+
+void check(const Scene& scene) { static_cast<void>(make_world(scene)); }
+
+RunResult run(const Scene& scene, RunObserver* observer) {
+  const auto begin = std::chrono::steady_clock::now();
+  const World world = make_world(scene);
+  RunObserver unobserved;
+  RunResult result = Simulation(world, observer != nullptr ? *observer : unobserved).run();
+  result.statistics.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  return result;
+}
+
+}  // namespace trajet

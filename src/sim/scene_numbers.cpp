@@ -1,0 +1,113 @@
+#include "scene_numbers.hpp"
+
+#include <cmath>
+#include <stdexcept>
+
+#include "trajet/law/program_builder.hpp"
+
+namespace trajet {
+namespace {
+
+std::string shown(double x) {
+  std::string text = std::to_string(x);
+  while (text.back() == '0') text.pop_back();
+  if (text.back() == '.') text.pop_back();
+  return text;
+}
+
+/// What is wrong with a shape as a whole is reported where its obstacle stands.
+class ShapeMaker {
+ public:
+  ShapeMaker(const SceneNumbers& numbers, const std::string& of) : numbers_(numbers), of_(of) {}
+
+  Shape operator()(const PlaneDefinition& plane) const {
+    return make_plane(vector(plane.point, "point"), vector(plane.normal, "normal"));
+  }
+  Shape operator()(const DiskDefinition& disk) const {
+    return make_disk(vector(disk.center, "center"), vector(disk.normal, "normal"), positive(disk.radius, "radius"));
+  }
+  Shape operator()(const RectangleDefinition& rectangle) const {
+    return make_rectangle(vector(rectangle.center, "center"), vector(rectangle.normal, "normal"), vector(rectangle.up, "up"),
+                          positive(rectangle.width, "size"), positive(rectangle.height, "size"));
+  }
+  Shape operator()(const TriangleDefinition& triangle) const {
+    return make_triangle(vector(triangle.a, "corner"), vector(triangle.b, "corner"), vector(triangle.c, "corner"));
+  }
+  Shape operator()(const SphereDefinition& sphere) const {
+    return make_sphere(vector(sphere.center, "center"), positive(sphere.radius, "radius"));
+  }
+  Shape operator()(const BoxDefinition& box) const {
+    return make_box(vector(box.center, "center"), vector(box.size, "size"),
+                    numbers_.rotation(box.orientation, "orientation" + of_));
+  }
+
+ private:
+  Vector3 vector(const Expression& value, const char* key) const { return numbers_.vector(value, key + of_); }
+  double positive(const Expression& value, const char* key) const { return numbers_.positive(value, key + of_); }
+
+  const SceneNumbers& numbers_;
+  std::string of_;
+};
+
+}  // namespace
+
+double SceneNumbers::scalar(const Expression& value, const std::string& what) const {
+  const double number = evaluate_scalar(value, constants_);
+  if (!std::isfinite(number)) throw InputError(value.where(), what + " is not a finite number");
+  return number;
+}
+
+double SceneNumbers::positive(const Expression& value, const std::string& what) const {
+  const double number = scalar(value, what);
+  if (number <= 0.0) throw InputError(value.where(), what + " must be positive, got " + shown(number));
+  return number;
+}
+
+double SceneNumbers::not_negative(const Expression& value, const std::string& what) const {
+  const double number = scalar(value, what);
+  if (number < 0.0) throw InputError(value.where(), what + " must not be negative, got " + shown(number));
+  return number;
+}
+
+double SceneNumbers::within(const Expression& value, double lowest, double highest, const std::string& what) const {
+  const double number = scalar(value, what);
+  if (number < lowest || number > highest)
+    throw InputError(value.where(), what + " must lie between " + shown(lowest) + " and " + shown(highest) + ", got " + shown(number));
+  return number;
+}
+
+Vector3 SceneNumbers::vector(const Expression& value, const std::string& what) const {
+  const Vector3 numbers = evaluate_vector(value, constants_);
+  if (!numbers.allFinite()) throw InputError(value.where(), what + " is not finite");
+  return numbers;
+}
+
+Matrix3 SceneNumbers::rotation(const OrientationDefinition& orientation, const std::string& what) const {
+  if (orientation.axis && orientation.angle_rad) {
+    const Vector3 axis = vector(*orientation.axis, what);
+    if (axis.norm() == 0.0) throw InputError(orientation.axis->where(), "axis of " + what + " has no direction");
+    return Eigen::AngleAxisd(scalar(*orientation.angle_rad, what), axis.normalized()).toRotationMatrix();
+  }
+  if (orientation.quaternion.size() == 4) {
+    Eigen::Vector4d q;
+    for (int i = 0; i < 4; ++i) q[i] = scalar(orientation.quaternion[static_cast<std::size_t>(i)], what);
+    if (q.norm() == 0.0) throw InputError(orientation.quaternion[0].where(), "quaternion of " + what + " is zero");
+    return Quaternion(q[0], q[1], q[2], q[3]).normalized().toRotationMatrix();
+  }
+  if (orientation.matrix.size() == 3) {
+    Matrix3 matrix;
+    for (int i = 0; i < 3; ++i) matrix.row(i) = vector(orientation.matrix[static_cast<std::size_t>(i)], what).transpose();
+    return matrix;
+  }
+  return Matrix3::Identity();
+}
+
+Shape SceneNumbers::shape(const ObstacleDefinition& obstacle) const {
+  try {
+    return std::visit(ShapeMaker(*this, " of obstacle '" + obstacle.name + "'"), obstacle.shape);
+  } catch (const std::domain_error& error) {
+    throw InputError(obstacle.where, "obstacle '" + obstacle.name + "': " + error.what());
+  }
+}
+
+}  // namespace trajet

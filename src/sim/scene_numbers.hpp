@@ -1,0 +1,30 @@
+#pragma once
+
+#include <string>
+
+#include "trajet/geom/shapes.hpp"
+#include "trajet/law/symbols.hpp"
+#include "trajet/sim/scene.hpp"
+
+namespace trajet {
+
+/// Gives the constant quantities of a scene their values. Every error is an InputError that points at the quantity.
+class SceneNumbers {
+ public:
+  explicit SceneNumbers(const Symbols& constants) : constants_(constants) {}
+
+  /// A finite number. `what` names it in messages: "radius of body 'ball'".
+  double scalar(const Expression& value, const std::string& what) const;
+  double positive(const Expression& value, const std::string& what) const;
+  double not_negative(const Expression& value, const std::string& what) const;
+  double within(const Expression& value, double lowest, double highest, const std::string& what) const;
+  /// Three finite numbers.
+  Vector3 vector(const Expression& value, const std::string& what) const;
+  Matrix3 rotation(const OrientationDefinition& orientation, const std::string& what) const;
+  Shape shape(const ObstacleDefinition& obstacle) const;
+
+ private:
+  const Symbols& constants_;
+};
+
+}  // namespace trajet

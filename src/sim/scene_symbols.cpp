@@ -1,0 +1,103 @@
+#include "scene_symbols.hpp"
+
+#include <cmath>
+#include <map>
+#include <string_view>
+#include <variant>
+
+#include "trajet/law/program_builder.hpp"
+
+namespace trajet {
+namespace {
+
+/// Evaluates each parameter after those it uses.
+class ParameterEvaluation {
+ public:
+  explicit ParameterEvaluation(const Scene& scene, Symbols& symbols) : scene_(scene), symbols_(symbols) {
+    for (const NamedExpression& parameter : scene.parameters) by_name_.emplace(parameter.name, &parameter);
+  }
+
+  void evaluate(const NamedExpression& parameter) {
+    State& state = states_[&parameter];
+    if (state == State::done) return;
+    if (state == State::open)
+      throw InputError(parameter.value.where(), "parameter '" + parameter.name + "' depends on itself");
+    state = State::open;
+    for (const std::string& name : parameter.value.names()) {
+      const auto used = by_name_.find(name);
+      if (used != by_name_.end()) evaluate(*used->second);
+    }
+    define(parameter);
+    states_[&parameter] = State::done;
+  }
+
+ private:
+  enum class State { untouched, open, done };
+
+  void define(const NamedExpression& parameter) {
+    const auto value = evaluate_constant(parameter.value, symbols_);
+    const bool finite = std::holds_alternative<double>(value) ? std::isfinite(std::get<double>(value))
+                                                              : std::get<Vector3>(value).allFinite();
+    if (!finite) throw InputError(parameter.value.where(), "parameter '" + parameter.name + "' is not a finite number");
+    std::visit([&](const auto& number) { symbols_.set_constant(parameter.name, number); }, value);
+  }
+
+  const Scene& scene_;
+  Symbols& symbols_;
+  std::map<std::string_view, const NamedExpression*> by_name_;
+  std::map<const NamedExpression*, State> states_;
+};
+
+/// Names that change with time have no place in a constant; say so instead of "unknown".
+void forbid_time_dependent_names(const Scene& scene, Symbols& symbols) {
+  const std::string where = " changes with time: only laws, rates and events may use it";
+  symbols.forbid("t", "t" + where);
+  for (const BodyDefinition& body : scene.bodies)
+    for (const BodyPart& part : kBodyParts) symbols.forbid(body.name + "." + part.name, body.name + "." + part.name + where);
+  for (const StateDefinition& state : scene.states) symbols.forbid(state.name, state.name + where);
+}
+
+}  // namespace
+
+const BodyPart* find_body_part(std::string_view name) {
+  for (const BodyPart& part : kBodyParts)
+    if (name == part.name) return &part;
+  return nullptr;
+}
+
+ParameterSet evaluate_parameters(const Scene& scene) {
+  ParameterSet set;
+  forbid_time_dependent_names(scene, set.symbols);
+  ParameterEvaluation evaluation(scene, set.symbols);
+  for (const NamedExpression& parameter : scene.parameters) evaluation.evaluate(parameter);
+  for (const NamedExpression& parameter : scene.parameters) {
+    const Symbols::Meaning& meaning = *set.symbols.find(parameter.name);
+    if (const double* number = std::get_if<double>(&meaning)) {
+      set.values.push_back({parameter.name, *number});
+    } else {
+      const auto& vector = std::get<Vector3>(meaning);
+      for (int i = 0; i < 3; ++i) set.values.push_back({parameter.name + "." + "xyz"[i], vector[i]});
+    }
+  }
+  return set;
+}
+
+void add_body_symbols(Symbols& symbols, const std::string& prefix, int input) {
+  for (const BodyPart& part : kBodyParts) {
+    const int first = input + part.first;
+    if (part.size == 3)
+      symbols.set_inputs(prefix + part.name, {first, first + 1, first + 2});
+    else
+      symbols.set_input(prefix + part.name, first);
+  }
+  // points and spheres do not turn: q_WB is the identity
+  symbols.set_constant(prefix + "w", Vector3(0, 0, 0));
+  for (int i = 0; i < 3; ++i) {
+    symbols.set_constant(prefix + "w" + "xyz"[i], 0.0);
+    symbols.set_constant(prefix + "q" + "xyz"[i], 0.0);
+    for (int j = 0; j < 3; ++j) symbols.set_constant(prefix + "R" + "xyz"[i] + "xyz"[j], i == j ? 1.0 : 0.0);
+  }
+  symbols.set_constant(prefix + "qw", 1.0);
+}
+
+}  // namespace trajet

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "trajet/law/symbols.hpp"
+#include "trajet/sim/run_result.hpp"
+#include "trajet/sim/scene.hpp"
+
+namespace trajet {
+
+/// The parts of a body's state by the names that laws call them, and where they stand behind the body's offset.
+struct BodyPart {
+  const char* name;
+  int first;  ///< in the body's part of the state
+  int size;   ///< 1 or 3
+};
+inline constexpr BodyPart kBodyParts[] = {{"r", 0, 3}, {"v", 3, 3},  {"x", 0, 1},  {"y", 1, 1},
+                                          {"z", 2, 1}, {"vx", 3, 1}, {"vy", 4, 1}, {"vz", 5, 1}};
+
+/// The body part of that name, or nullptr.
+const BodyPart* find_body_part(std::string_view name);
+
+/// The parameters of a scene, evaluated whatever the order in which they refer to each other, and the names that they must
+/// not use. Throws InputError: a circle, an unknown name, a value that is not finite.
+struct ParameterSet {
+  Symbols symbols;
+  std::vector<NamedValue> values;
+};
+ParameterSet evaluate_parameters(const Scene& scene);
+
+/// Adds the meanings of a body's names: `prefix` is "" for its own laws or "NAME." for those of others. `input` is the index
+/// of its first component among the inputs of a program.
+void add_body_symbols(Symbols& symbols, const std::string& prefix, int input);
+
+}  // namespace trajet

@@ -1,0 +1,344 @@
+#include "simulation.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "trajet/collide/respond/restitution.hpp"
+#include "trajet/law/evaluate.hpp"
+
+namespace trajet {
+namespace {
+
+/// So many impacts at one instant are a body that cannot get away, not a motion.
+constexpr int kMaxImpactsAtOnce = 1000;
+
+std::string failure_text(StepStatus status) {
+  switch (status) {
+    case StepStatus::step_too_small:
+      return "the tolerance cannot be met: the step became too small";
+    case StepStatus::not_finite:
+      return "the law is not finite";
+    case StepStatus::ok:
+      break;
+  }
+  return {};
+}
+
+}  // namespace
+
+Simulation::Simulation(const World& world, RunObserver& observer)
+    : world_(world), observer_(observer), direction_(world.end < world.start ? -1.0 : 1.0) {
+  for (std::size_t g = 0; g < world.groups.size(); ++g)
+    motions_.push_back(std::make_unique<Motion>(world, static_cast<int>(g)));
+  result_.scene = world.scene;
+  result_.title = world.title;
+  result_.method = world.method->name;
+  result_.start_time = result_.end_time = world.start;
+  result_.parameters = world.parameters;
+}
+
+RunResult Simulation::run() {
+  sample_until(world_.start);
+  if (world_.end != world_.start)
+    for (std::size_t i = 0; i < motions_.size() && running_; ++i) advance(static_cast<int>(i));
+  while (running_ && !queue_.empty()) {
+    const int index = queue_.top().motion;
+    queue_.pop();
+    const Incident incident = motion(index).next();
+    result_.end_time = incident.time;
+    if (observer_.interrupted(incident.time)) {
+      result_.status = RunStatus::interrupted;
+      running_ = false;
+      break;
+    }
+    handle(index, incident);
+  }
+  sample_until(result_.end_time);
+  if (result_.status != RunStatus::stopped && last_sample_ != result_.end_time) write_sample(result_.end_time);
+  std::stable_sort(result_.impacts.begin(), result_.impacts.end(),
+                   [&](const Impact& a, const Impact& b) { return direction_ * (b.time - a.time) > 0.0; });
+  result_.final = sample_at(result_.end_time);
+  for (const auto& each : motions_) {
+    const StepStatistics statistics = each->statistics();
+    result_.statistics.steps += statistics.steps;
+    result_.statistics.rejected_steps += statistics.rejected_steps;
+    result_.statistics.law_evaluations += statistics.law_evaluations;
+  }
+  return std::move(result_);
+}
+
+void Simulation::enqueue(int index) {
+  queue_.push({direction_ * (motion(index).next().time - world_.start), index});
+}
+
+/// The next Segment of a motion, behind all that was handled.
+void Simulation::advance(int index) {
+  if (++step_count_ > world_.max_steps) {
+    fail(result_.end_time, "more than max_steps = " + std::to_string(world_.max_steps) + " steps");
+    return;
+  }
+  const StepStatus status = motion(index).advance();
+  if (status != StepStatus::ok) {
+    fail(result_.end_time, failure_text(status));
+    return;
+  }
+  enqueue(index);
+}
+
+void Simulation::handle(int index, const Incident& incident) {
+  switch (incident.kind) {
+    case Incident::Kind::segment_end:
+      sample_until(incident.time);
+      if (!motion(index).finished()) advance(index);
+      return;
+    case Incident::Kind::event:
+      return handle_event(index, incident);
+    case Incident::Kind::contact:
+      return handle_contact(index, incident);
+    case Incident::Kind::leave:
+      return handle_leave(index, incident);
+  }
+}
+
+void Simulation::handle_event(int index, const Incident& incident) {
+  Motion& moving = motion(index);
+  const World::Event& event = world_.events[static_cast<std::size_t>(incident.index)];
+  const EventWatch::Crossing crossing = moving.crossing(incident.index);
+  if (crossing.undecided) {
+    fail(incident.time, "whether event '" + event.name + "' happens cannot be decided");
+    return;
+  }
+  result_.events.push_back({incident.time, event.name, crossing.direction});
+  switch (event.action) {
+    case EventAction::record:
+      moving.pass_event(incident.index);
+      enqueue(index);
+      return;
+    case EventAction::stop:
+      sample_until(incident.time);
+      result_.status = RunStatus::stopped;
+      running_ = false;
+      write_sample(incident.time);
+      return;
+    case EventAction::set: {
+      sample_until(incident.time);
+      Eigen::VectorXd q = moving.state(incident.time);
+      Eigen::VectorXd values(static_cast<Eigen::Index>(event.targets.size()));
+      Evaluator<double>(event.set)(incident.time, q.data(), values.data());
+      for (std::size_t i = 0; i < event.targets.size(); ++i) q[event.targets[i]] = values[static_cast<Eigen::Index>(i)];
+      moving.restart(incident.time, q);
+      moving.forget_contacts();
+      advance(index);
+      return;
+    }
+  }
+}
+
+double Simulation::mass(const World::Body& body, double t, const Eigen::VectorXd& q) const {
+  double value = 1.0;
+  if (body.mass) Evaluator<double>(*body.mass)(t, q.data(), &value);
+  return value;
+}
+
+Impact Simulation::describe(int index, const Incident& incident, const Eigen::VectorXd& q) const {
+  const Motion::Pair& pair = motions_[static_cast<std::size_t>(index)]->pair(incident.index);
+  const World::Body& body = body_of(pair);
+  Impact impact;
+  impact.time = incident.time;
+  impact.body = body.name;
+  impact.with = obstacle_of(pair).name;
+  impact.kind = pair.contact.status == ContactStatus::graze ? ImpactKind::graze : ImpactKind::hit;
+  impact.point = pair.contact.point;
+  impact.normal = pair.contact.normal;
+  impact.position = q.segment<3>(body.offset);
+  impact.velocity_before = impact.velocity_after = q.segment<3>(body.offset + 3);
+  impact.impulse = Vector3::Zero();
+  impact.time_error_bound = pair.contact.time_error_bound;
+  return impact;
+}
+
+void Simulation::record(const Impact& impact) {
+  if (!result_.impacts.empty()) {
+    const Impact& last = result_.impacts.back();
+    const double apart = std::abs(impact.time - last.time);
+    impacts_at_once_ = apart == 0.0 ? impacts_at_once_ + 1 : 0;
+    const bool is_tie = impact.with != last.with && apart <= impact.time_error_bound + last.time_error_bound;
+    if (is_tie && impact.kind != ImpactKind::rest && last.kind != ImpactKind::rest)
+      result_.warnings.push_back("the impacts of " + last.body + " with " + last.with + " and of " + impact.body + " with " +
+                                 impact.with + " are closer in time than their error bounds: they were taken in the order of the scene");
+  }
+  result_.impacts.push_back(impact);
+}
+
+void Simulation::handle_contact(int index, const Incident& incident) {
+  Motion& moving = motion(index);
+  const Motion::Pair& pair = moving.pair(incident.index);
+  const World::Body& body = body_of(pair);
+  const World::Obstacle& obstacle = obstacle_of(pair);
+  if (pair.contact.status == ContactStatus::overlapping_at_start) {
+    const std::string text = "body '" + body.name + "' starts inside obstacle '" + obstacle.name + "'";
+    if (incident.time == world_.start) throw InputError(body.where, text);
+    fail(incident.time, "body '" + body.name + "' is inside obstacle '" + obstacle.name + "'");
+    return;
+  }
+  if (pair.contact.status == ContactStatus::unresolved) {
+    fail(incident.time, "contact of '" + body.name + "' with '" + obstacle.name + "' is unresolved");
+    return;
+  }
+  sample_until(incident.time);
+  const Impact impact = describe(index, incident, moving.state(incident.time));
+  const bool is_hit = pair.contact.status == ContactStatus::hit && pair.contact.direction != ContactDirection::leaving;
+  if (is_hit && obstacle.on_hit == OnHit::stop) {
+    write_sample(incident.time);
+    write_sample(incident.time);
+    record(impact);
+    result_.status = RunStatus::stopped;
+    running_ = false;
+  } else if (is_hit && obstacle.on_hit == OnHit::bounce) {
+    bounce(index, incident, impact);
+  } else {
+    write_sample(incident.time);
+    write_sample(incident.time);
+    record(impact);
+    moving.pass_contact(incident.index);
+    enqueue(index);
+  }
+}
+
+void Simulation::bounce(int index, const Incident& incident, Impact impact) {
+  Motion& moving = motion(index);
+  const Motion::Pair pair = moving.pair(incident.index);
+  const World::Body& body = body_of(pair);
+  const World::Obstacle& obstacle = obstacle_of(pair);
+  const double t = incident.time;
+  write_sample(t);
+
+  Eigen::VectorXd q = moving.state(t);
+  auto velocity = q.segment<3>(body.offset + 3);
+  // the velocity of the centre is dr/dt, which a position_rate may set apart from v
+  const Vector3 approach = moving.rate(t, q).segment<3>(body.offset);
+  velocity += restitution_velocity_change(approach, impact.normal, obstacle.restitution);
+  impact.velocity_after = velocity;
+  impact.impulse = mass(body, t, q) * (impact.velocity_after - impact.velocity_before);
+  record(impact);
+  if (impacts_at_once_ > kMaxImpactsAtOnce) {
+    fail(t, "body '" + body.name + "' bounces without end between obstacles");
+    return;
+  }
+
+  const RestingTime rest = resting_time(moving, pair, impact, q);
+  if (rest.rests) {
+    if (!is_flat_at(obstacle.shape, impact.normal)) {
+      fail(t, "body '" + body.name + "' comes to rest on the curved or sharp part of obstacle '" + obstacle.name +
+                  "', where trajet cannot follow it");
+      return;
+    }
+    velocity -= velocity.dot(impact.normal) * impact.normal;
+    impact.kind = ImpactKind::rest;
+    impact.time = t + rest.duration;
+    impact.velocity_before = impact.velocity_after;
+    impact.velocity_after = velocity;
+    impact.impulse = Vector3::Zero();
+    record(impact);
+    moving.begin_rest(incident.index, impact.normal);
+    moving.restart(t, q);
+  } else {
+    moving.restart(t, q);
+    moving.rebound(incident.index, trajet::rebounded(pair.contact.memory));
+  }
+  write_sample(t);
+  advance(index);
+}
+
+Simulation::RestingTime Simulation::resting_time(const Motion& moving, const Motion::Pair& pair, const Impact& impact,
+                                                 const Eigen::VectorXd& q) const {
+  // A rebound this much higher than the gap can be told from contact is still a flight.
+  constexpr double kLowestFlight = 1e5;
+  const World::Body& body = body_of(pair);
+  const double e = obstacle_of(pair).restitution;
+  const Eigen::VectorXd rate = moving.rate(impact.time, q);
+  const double speed = impact.normal.dot(rate.segment<3>(body.offset));
+  const double pull = -impact.normal.dot(rate.segment<3>(body.offset + 3));
+  if (pull <= 0.0 || e >= 1.0) return {};
+  if (speed * speed > 2.0 * pull * kLowestFlight * pair.contact.memory.tolerance) return {};
+  // all flights to come: 2 u/g (1 + e + e^2 + ...)
+  return {true, 2.0 * speed / (pull * (1.0 - e))};
+}
+
+void Simulation::handle_leave(int index, const Incident& incident) {
+  Motion& moving = motion(index);
+  sample_until(incident.time);
+  const RestingContact contact = moving.resting()[static_cast<std::size_t>(incident.index)];
+  const Motion::Pair pair = moving.pair(contact.pair);
+  const Eigen::VectorXd q = moving.state(incident.time);
+  Impact impact;
+  impact.time = incident.time;
+  impact.body = body_of(pair).name;
+  impact.with = obstacle_of(pair).name;
+  impact.kind = ImpactKind::leave;
+  impact.normal = contact.normal;
+  impact.position = q.segment<3>(contact.offset);
+  impact.point = impact.position - body_of(pair).radius * contact.normal;
+  impact.velocity_before = impact.velocity_after = q.segment<3>(contact.offset + 3);
+  impact.impulse = Vector3::Zero();
+  impact.time_error_bound = 0.0;
+  write_sample(incident.time);
+  write_sample(incident.time);
+  record(impact);
+  moving.end_rest(incident.index);
+  moving.restart(incident.time, q);
+  ContactMemory memory = pair.contact.memory;
+  memory.side = 1;
+  memory.contact_time = incident.time;
+  moving.rebound(contact.pair, memory);
+  advance(index);
+}
+
+void Simulation::fail(double time, const std::string& reason) {
+  result_.status = RunStatus::failed;
+  result_.end_time = time;
+  result_.failure = reason;
+  running_ = false;
+}
+
+void Simulation::sample_until(double time) {
+  while (true) {
+    double next = world_.start + direction_ * static_cast<double>(next_sample_) * world_.sample;
+    // a multiple of the spacing that misses the end by rounding is the end
+    constexpr double kRounding = 1e-9;
+    if (std::abs(next - world_.end) < kRounding * world_.sample) next = world_.end;
+    if (direction_ * (time - next) < 0.0) return;
+    ++next_sample_;
+    write_sample(next);
+  }
+}
+
+void Simulation::write_sample(double time) {
+  last_sample_ = time;
+  observer_.sample(sample_at(time));
+}
+
+Sample Simulation::sample_at(double time) const {
+  Sample sample;
+  sample.time = time;
+  sample.bodies.resize(world_.bodies.size());
+  sample.states.resize(world_.states.size());
+  std::vector<Eigen::VectorXd> states;
+  states.reserve(motions_.size());
+  for (const auto& each : motions_) {
+    states.push_back(each->state(time));
+    const Eigen::VectorXd rate = each->rate(time, states.back());
+    for (const int b : each->group().bodies) {
+      const World::Body& body = world_.bodies[static_cast<std::size_t>(b)];
+      sample.bodies[static_cast<std::size_t>(b)] = {body.name, states.back().segment<3>(body.offset),
+                                                    states.back().segment<3>(body.offset + 3), rate.segment<3>(body.offset + 3)};
+    }
+  }
+  for (std::size_t i = 0; i < world_.states.size(); ++i) {
+    const World::ExtraState& state = world_.states[i];
+    sample.states[i] = {state.name, states[static_cast<std::size_t>(state.group)][state.offset]};
+  }
+  return sample;
+}
+
+}  // namespace trajet

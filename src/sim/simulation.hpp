@@ -1,0 +1,81 @@
+#pragma once
+
+#include <functional>
+#include <limits>
+#include <memory>
+#include <queue>
+#include <string>
+#include <vector>
+
+#include "motion.hpp"
+#include "trajet/sim/run_result.hpp"
+#include "trajet/sim/world.hpp"
+
+namespace trajet {
+
+/// Runs a World: integrate, find the first incident, respond, go on from there. Nothing else in trajet joins the three.
+///
+/// The motions of a World advance on their own, each by its own Segments. The simulation handles incidents in the order of
+/// time over all motions, so that at each of them every motion's current Segment covers that time.
+class Simulation {
+ public:
+  Simulation(const World& world, RunObserver& observer);
+
+  RunResult run();
+
+ private:
+  void handle(int motion, const Incident& incident);
+  void handle_event(int motion, const Incident& incident);
+  void handle_contact(int motion, const Incident& incident);
+  void handle_leave(int motion, const Incident& incident);
+  void bounce(int motion, const Incident& incident, Impact impact);
+
+  /// Whether a body that has bounced will not fly any more, and for how long it still would.
+  struct RestingTime {
+    bool rests = false;
+    double duration = 0.0;  ///< s
+  };
+  RestingTime resting_time(const Motion& motion, const Motion::Pair& pair, const Impact& impact, const Eigen::VectorXd& q) const;
+
+  void advance(int motion);
+  void record(const Impact& impact);
+  void fail(double time, const std::string& reason);
+  /// The impact as it stands before the response.
+  Impact describe(int motion, const Incident& incident, const Eigen::VectorXd& q) const;
+  double mass(const World::Body& body, double t, const Eigen::VectorXd& q) const;
+
+  /// Writes the regular samples behind the last one, up to `time`.
+  void sample_until(double time);
+  void write_sample(double time);
+  Sample sample_at(double time) const;
+
+  Motion& motion(int index) { return *motions_[static_cast<std::size_t>(index)]; }
+  const World::Body& body_of(const Motion::Pair& pair) const { return world_.bodies[static_cast<std::size_t>(pair.body)]; }
+  const World::Obstacle& obstacle_of(const Motion::Pair& pair) const {
+    return world_.obstacles[static_cast<std::size_t>(pair.obstacle)];
+  }
+
+  /// A motion whose next incident is at `time`, or, before it first advances, the start.
+  struct Pending {
+    double order;  ///< (time - start) in the direction of the run
+    int motion;
+    bool operator>(const Pending& other) const {
+      return order != other.order ? order > other.order : motion > other.motion;
+    }
+  };
+  void enqueue(int motion);
+
+  const World& world_;
+  RunObserver& observer_;
+  double direction_;
+  std::vector<std::unique_ptr<Motion>> motions_;
+  std::priority_queue<Pending, std::vector<Pending>, std::greater<>> queue_;
+  RunResult result_;
+  bool running_ = true;
+  long step_count_ = 0;
+  long next_sample_ = 0;
+  double last_sample_ = std::numeric_limits<double>::quiet_NaN();
+  int impacts_at_once_ = 0;
+};
+
+}  // namespace trajet

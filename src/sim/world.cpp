@@ -1,0 +1,299 @@
+#include "trajet/sim/world.hpp"
+
+#include <cmath>
+#include <map>
+#include <set>
+#include <string_view>
+
+#include "partition.hpp"
+#include "scene_numbers.hpp"
+#include "scene_symbols.hpp"
+#include "trajet/law/did_you_mean.hpp"
+#include "trajet/law/program_builder.hpp"
+
+namespace trajet {
+namespace {
+
+constexpr double kDefaultTolerance = 1e-12;
+constexpr double kDefaultSampleCount = 200.0;
+
+std::string of_body(const BodyDefinition& body) { return " of body '" + body.name + "'"; }
+
+/// Builds a World from a Scene: numbers first, then who depends on whom, then one program per group.
+class WorldBuilder {
+ public:
+  explicit WorldBuilder(const Scene& scene)
+      : scene_(scene),
+        parameters_(evaluate_parameters(scene)),
+        numbers_(parameters_.symbols),
+        partition_(static_cast<int>(scene.bodies.size() + scene.states.size() + scene.events.size())) {}
+
+  World build() {
+    world_.scene = scene_.file;
+    world_.title = scene_.title;
+    world_.parameters = parameters_.values;
+    check_names();
+    set_time();
+    set_method();
+    for (const ObstacleDefinition& obstacle : scene_.obstacles)
+      world_.obstacles.push_back({obstacle.name, numbers_.shape(obstacle), obstacle.on_hit,
+                                  numbers_.within(obstacle.restitution, 0.0, 1.0, "restitution of obstacle '" + obstacle.name + "'")});
+    find_dependencies();
+    place_in_groups();
+    for (std::size_t g = 0; g < world_.groups.size(); ++g) compile_group(static_cast<int>(g));
+    return std::move(world_);
+  }
+
+ private:
+  // Members of the partition: bodies, then extra states, then events.
+  int state_member(std::size_t i) const { return static_cast<int>(scene_.bodies.size() + i); }
+  int event_member(std::size_t i) const { return static_cast<int>(scene_.bodies.size() + scene_.states.size() + i); }
+
+  void check_names() const {
+    if (scene_.bodies.empty() && scene_.states.empty())
+      throw InputError({scene_.file, 1, 1}, "nothing moves: the scene has neither a [[body]] nor a [[state]]");
+    std::set<std::string_view> names;
+    const auto check = [&](const std::string& name, const SourceLocation& where) {
+      if (!names.insert(name).second) throw InputError(where, "the name '" + name + "' is used twice");
+    };
+    for (const NamedExpression& parameter : scene_.parameters) check(parameter.name, parameter.where);
+    for (const BodyDefinition& body : scene_.bodies) check(body.name, body.where);
+    for (const StateDefinition& state : scene_.states) check(state.name, state.where);
+    for (const ObstacleDefinition& obstacle : scene_.obstacles) check(obstacle.name, obstacle.where);
+    names.clear();
+    for (const EventDefinition& event : scene_.events) check(event.name, event.where);
+  }
+
+  void set_time() {
+    const TimeOptions& time = scene_.time;
+    if (!time.end) throw InputError({scene_.file, 1, 1}, "[time] needs `end`");
+    world_.start = numbers_.scalar(time.start, "start time");
+    world_.end = numbers_.scalar(*time.end, "end time");
+    const double duration = std::abs(world_.end - world_.start);
+    if (world_.end < world_.start && !scene_.obstacles.empty())
+      throw InputError(time.end->where(), "the end is before the start: impacts have no meaning backward in time");
+    world_.sample = time.sample ? numbers_.positive(*time.sample, "sample spacing")
+                                : (duration > 0.0 ? duration / kDefaultSampleCount : 1.0);
+  }
+
+  void set_method() {
+    const MethodOptions& method = scene_.method;
+    world_.method = find_method(method.name);
+    if (world_.method == nullptr) {
+      std::vector<std::string_view> known;
+      for (const MethodInfo& info : methods()) {
+        known.push_back(info.name);
+        known.insert(known.end(), info.aliases.begin(), info.aliases.end());
+      }
+      throw InputError(method.where, "unknown method '" + method.name + "'" + did_you_mean(method.name, known));
+    }
+    StepOptions& options = world_.step_options;
+    options.rtol = method.rtol ? numbers_.not_negative(*method.rtol, "rtol") : kDefaultTolerance;
+    options.atol = method.atol ? numbers_.not_negative(*method.atol, "atol") : kDefaultTolerance;
+    if (options.rtol == 0.0 && options.atol == 0.0)
+      throw InputError(method.rtol->where(), "rtol and atol must not both be zero");
+    if (method.step) options.step = numbers_.positive(*method.step, "step");
+    options.order = method.order;
+    if (!method.steps.empty()) set_unequal_steps();
+    if (world_.method->control == StepControl::fixed && !options.step && options.nodes.empty())
+      throw InputError(method.where, "method '" + std::string(world_.method->name) + "' takes fixed steps: give [method] step");
+    if (method.max_steps <= 0) throw InputError(method.where, "max_steps must be positive");
+    world_.max_steps = method.max_steps;
+    world_.locate = method.locate;
+  }
+
+  void set_unequal_steps() {
+    const double direction = world_.end < world_.start ? -1.0 : 1.0;
+    double t = world_.start;
+    for (const Expression& step : scene_.method.steps) {
+      t += direction * numbers_.positive(step, "step");
+      world_.step_options.nodes.push_back(t);
+    }
+  }
+
+  /// Joins `member` with all bodies and states that a formula of its own names.
+  void depend(int member, const Expression& formula) {
+    for (const std::string& name : formula.names()) {
+      const std::string_view owner = std::string_view(name).substr(0, name.find('.'));
+      for (std::size_t i = 0; i < scene_.bodies.size(); ++i)
+        if (scene_.bodies[i].name == owner && owner.size() != name.size()) partition_.join(member, static_cast<int>(i));
+      for (std::size_t i = 0; i < scene_.states.size(); ++i)
+        if (scene_.states[i].name == name) partition_.join(member, state_member(i));
+    }
+  }
+
+  void find_dependencies() {
+    for (std::size_t i = 0; i < scene_.bodies.size(); ++i) {
+      const BodyDefinition& body = scene_.bodies[i];
+      for (const auto* law : {&body.acceleration, &body.force, &body.mass, &body.position_rate})
+        if (*law) depend(static_cast<int>(i), **law);
+    }
+    for (std::size_t i = 0; i < scene_.states.size(); ++i) depend(state_member(i), scene_.states[i].rate);
+    for (std::size_t i = 0; i < scene_.events.size(); ++i) {
+      const EventDefinition& event = scene_.events[i];
+      depend(event_member(i), event.when);
+      for (const NamedExpression& assignment : event.set) {
+        depend(event_member(i), Expression::parse(assignment.name, assignment.where, dashed_names()));
+        depend(event_member(i), assignment.value);
+      }
+      // an event of time alone goes with the first motion
+      if (partition_.find(event_member(i)) == event_member(i)) partition_.join(event_member(i), 0);
+    }
+  }
+
+  /// Names that hold a `-`, which formulas must not take for a subtraction.
+  std::vector<std::string> dashed_names() const {
+    std::vector<std::string> names;
+    for (const BodyDefinition& body : scene_.bodies)
+      if (body.name.find('-') != std::string::npos) names.push_back(body.name);
+    for (const StateDefinition& state : scene_.states)
+      if (state.name.find('-') != std::string::npos) names.push_back(state.name);
+    return names;
+  }
+
+  /// The group of a member, made at its first sight; groups come in the order of their first members.
+  int group_of(int member) {
+    const auto [place, is_new] = group_of_root_.try_emplace(partition_.find(member), static_cast<int>(world_.groups.size()));
+    if (is_new) world_.groups.emplace_back();
+    return place->second;
+  }
+
+  World::Group& group(int index) { return world_.groups[static_cast<std::size_t>(index)]; }
+
+  static int append(Eigen::VectorXd& state, const Eigen::VectorXd& values) {
+    const auto offset = state.size();
+    state.conservativeResize(offset + values.size());
+    state.tail(values.size()) = values;
+    return static_cast<int>(offset);
+  }
+
+  void place_in_groups() {
+    for (std::size_t i = 0; i < scene_.bodies.size(); ++i) {
+      const BodyDefinition& definition = scene_.bodies[i];
+      World::Body body;
+      body.name = definition.name;
+      body.where = definition.where;
+      if (const auto* ball = std::get_if<BallShape>(&definition.shape))
+        body.radius = numbers_.positive(ball->radius, "radius" + of_body(definition));
+      body.group = group_of(static_cast<int>(i));
+      Eigen::VectorXd start(World::kBodySize);
+      start << numbers_.vector(definition.position, "position" + of_body(definition)),
+          numbers_.vector(definition.velocity, "velocity" + of_body(definition));
+      body.offset = append(group(body.group).start, start);
+      group(body.group).bodies.push_back(static_cast<int>(i));
+      world_.bodies.push_back(std::move(body));
+    }
+    for (std::size_t i = 0; i < scene_.states.size(); ++i) {
+      const StateDefinition& definition = scene_.states[i];
+      const int index = group_of(state_member(i));
+      const double value = numbers_.scalar(definition.value, "value of state '" + definition.name + "'");
+      world_.states.push_back({definition.name, index, append(group(index).start, Eigen::VectorXd::Constant(1, value))});
+    }
+    world_.events.resize(scene_.events.size());
+    for (std::size_t i = 0; i < scene_.events.size(); ++i) {
+      const int index = group_of(event_member(i));
+      group(index).events.push_back(static_cast<int>(i));
+    }
+  }
+
+  /// What laws, rates and events of a group may use: time, and all that moves in the group.
+  Symbols group_symbols(int index) const {
+    Symbols symbols(&parameters_.symbols);
+    symbols.set_input("t", 0);
+    for (const World::Body& body : world_.bodies)
+      if (body.group == index) add_body_symbols(symbols, body.name + ".", 1 + body.offset);
+    for (const World::ExtraState& state : world_.states)
+      if (state.group == index) symbols.set_input(state.name, 1 + state.offset);
+    return symbols;
+  }
+
+  void compile_group(int index) {
+    World::Group& target = group(index);
+    const Symbols symbols = group_symbols(index);
+    const int input_count = 1 + static_cast<int>(target.start.size());
+    ProgramBuilder law(input_count);
+    for (const int b : target.bodies) compile_body(b, symbols, input_count, law);
+    for (std::size_t i = 0; i < scene_.states.size(); ++i)
+      if (world_.states[i].group == index) law.add_output(law.compile_scalar(scene_.states[i].rate, symbols));
+    target.law = law.build();
+    for (const int e : target.events) compile_event(e, symbols, input_count);
+  }
+
+  void compile_body(int index, const Symbols& group_scope, int input_count, ProgramBuilder& law) {
+    const BodyDefinition& definition = scene_.bodies[static_cast<std::size_t>(index)];
+    World::Body& body = world_.bodies[static_cast<std::size_t>(index)];
+    const int position = 1 + body.offset;
+    Symbols own(&group_scope);
+    add_body_symbols(own, "", position);
+
+    law.add_output(definition.position_rate ? law.compile_vector(*definition.position_rate, own)
+                                            : law.inputs({position + 3, position + 4, position + 5}));
+    if (definition.acceleration && definition.force)
+      throw InputError(definition.force->where(), "body '" + body.name + "' has both `acceleration` and `force`");
+    if (definition.force && !definition.mass)
+      throw InputError(definition.force->where(), "body '" + body.name + "' has a `force` but no `mass`");
+    if (definition.acceleration) {
+      law.add_output(law.compile_vector(*definition.acceleration, own));
+    } else if (definition.force) {
+      law.add_output(law.divide(law.compile_vector(*definition.force, own), law.compile_scalar(*definition.mass, own)));
+    } else {
+      for (int i = 0; i < 3; ++i) law.add_output(law.constant(0.0));
+    }
+    if (definition.mass) {
+      ProgramBuilder mass(input_count);
+      mass.add_output(mass.compile_scalar(*definition.mass, own));
+      body.mass = mass.build();
+    }
+  }
+
+  void compile_event(int index, const Symbols& symbols, int input_count) {
+    const EventDefinition& definition = scene_.events[static_cast<std::size_t>(index)];
+    World::Event& event = world_.events[static_cast<std::size_t>(index)];
+    event.name = definition.name;
+    event.group = group_of(event_member(static_cast<std::size_t>(index)));
+    event.direction = definition.direction;
+    event.action = definition.action;
+    ProgramBuilder when(input_count);
+    when.add_output(when.compile_scalar(definition.when, symbols));
+    event.when = when.build();
+    ProgramBuilder set(input_count);
+    for (const NamedExpression& assignment : definition.set) {
+      const AssignmentTarget target = find_target(assignment, event.group);
+      set.add_output(target.size == 3 ? set.compile_vector(assignment.value, symbols)
+                                      : set.compile_scalar(assignment.value, symbols));
+      for (int i = 0; i < target.size; ++i) event.targets.push_back(target.offset + i);
+    }
+    event.set = set.build();
+  }
+
+  /// Components of a group's state that an assignment replaces.
+  struct AssignmentTarget {
+    int offset;
+    int size;
+  };
+
+  AssignmentTarget find_target(const NamedExpression& assignment, int index) const {
+    for (const World::ExtraState& state : world_.states)
+      if (state.name == assignment.name && state.group == index) return {state.offset, 1};
+    const std::size_t dot = assignment.name.find('.');
+    if (dot != std::string::npos) {
+      const BodyPart* part = find_body_part(std::string_view(assignment.name).substr(dot + 1));
+      for (const World::Body& body : world_.bodies)
+        if (part != nullptr && body.name == assignment.name.substr(0, dot)) return {body.offset + part->first, part->size};
+    }
+    throw InputError(assignment.where, "'" + assignment.name + "' cannot be set: it is neither an extra state nor a part of a body such as ball.v");
+  }
+
+  const Scene& scene_;
+  ParameterSet parameters_;
+  SceneNumbers numbers_;
+  Partition partition_;
+  std::map<int, int> group_of_root_;
+  World world_;
+};
+
+}  // namespace
+
+World make_world(const Scene& scene) { return WorldBuilder(scene).build(); }
+
+}  // namespace trajet
