@@ -79,7 +79,8 @@ std::optional<Unit> udunits_unit(std::string_view name) {
   if (parsed == nullptr) return std::nullopt;
   Unit unit;
   if (ut_accept_visitor(parsed.get(), &kVisitor, &unit) != UT_SUCCESS)
-    throw InputError({}, "the unit '" + std::string(name) + "' is no multiple of an SI unit");
+    throw InputError(
+        {}, "the unit '" + std::string(name) + "' is no multiple of an SI unit, one without an offset expected");
   return unit;
 }
 

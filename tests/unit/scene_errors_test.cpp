@@ -68,7 +68,7 @@ const BadScene kBadScenes[] = {
     {"[parameters]\na = \"1e999 m\"", "4:6", "too large"},
     {"[parameters]\na = \"1e999\"", "4:6", "range"},
     {"[parameters]\na = \"5 parrots\"", "4:8", "unknown unit 'parrots'"},
-    {"[parameters]\na = \"5 degC\"", "4:8", "without an offset"},
+    {"[parameters]\na = \"5 degC\"", "4:8", "no multiple of an SI unit"},
     {"[parameters]\na = \"500m/s\"", "4:9", "write \"500 m/s\""},
     {"[method]\nstep = \"5 m\"", "4:11", "time [s] expected, got length [m]"},
     {"[[body]]\nname = \"b\"\nposition = [\"1 km\", 0, \"2 m/s\"]", "5:27", "length [m] expected, got speed [m/s]"},
