@@ -176,7 +176,7 @@ class WorldBuilder {
       if (const auto* ball = std::get_if<BallShape>(&definition.shape))
         body.radius = numbers_.positive(ball->radius, "radius" + of_body(definition));
       body.group = group_of(static_cast<int>(i));
-      Eigen::VectorXd start(World::kBodySize);
+      Eigen::Vector<double, World::kBodySize> start;
       start << numbers_.vector(definition.position, "position" + of_body(definition)),
           numbers_.vector(definition.velocity, "velocity" + of_body(definition));
       body.offset = append(group(body.group).start, start);
