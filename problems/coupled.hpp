@@ -19,7 +19,7 @@ struct Coupled {
   }
 
   static double start_time() { return 0.25; }
-  static double end_time() { return 1.75; }
+  static double end_time() { return 2.0; }
   static State start() { return exact(start_time()); }
   static State exact(double t) { return {std::exp(std::sin(t * t)), std::cos(t * t)}; }
 };
