@@ -19,7 +19,8 @@ constexpr Dimension kEnergy{{2, 1, -2}};
 constexpr Dimension kAngularSpeed{{0, 0, -1, 0, 0, 0, 0, 1}};
 
 /// Common units, so that an ordinary scene need not load the database of UDUNITS-2 (5 ms, more than the run of most
-/// scenes). A test holds each entry against UDUNITS-2.
+/// scenes). A test holds each entry against UDUNITS-2, which lacks `deg` and `rev` and reads `mph` as milliphot, a
+/// brightness.
 constexpr std::array kCommonUnits{
     NamedUnit{"m", {1, 1, kLength}},
     NamedUnit{"cm", {1, 100, kLength}},

@@ -24,16 +24,10 @@ struct FreeSystem {
 };
 using SystemPointer = std::unique_ptr<ut_system, FreeSystem>;
 
-/// The database with our three names added. UDUNITS-2 reads `mph` as milliphot, a brightness.
 SystemPointer load_database() {
   ut_set_error_message_handler(ut_ignore);
   SystemPointer system(ut_read_xml(nullptr));
   if (system == nullptr) throw FileError("cannot read the units database of UDUNITS-2");
-  constexpr const char* kAliases[][2] = {{"deg", "degree"}, {"rev", "revolution"}, {"mph", "mile/hour"}};
-  for (const auto& [name, definition] : kAliases) {
-    const UnitPointer unit(ut_parse(system.get(), definition, UT_UTF8));
-    ut_map_name_to_unit(name, UT_UTF8, unit.get());
-  }
   return system;
 }
 

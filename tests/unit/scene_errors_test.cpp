@@ -62,6 +62,7 @@ const BadScene kBadScenes[] = {
     {"[parameters]\na = 1979-05-27", "4:5", "got a date"},
     {"[[event]]\nname = \"e\"\nwhen = 1\naction = \"set\"", "3:1", "lacks the key 'set'"},
     {"[[event]]\nname = \"e\"\nwhen = 1\naction = \"stop\"\nset = {}", "7:7", "does not go with"},
+    {"\xef\xbb\xbftitle = 3\n[time]\nend = 1", "1:9", "a string expected"},
     // numbers and units
     {"[parameters]\na = nan", "4:5", "a finite number expected"},
     {"[parameters]\na = -inf", "4:5", "a finite number expected"},
@@ -97,6 +98,7 @@ const BadScene kBadScenes[] = {
      "already that of the body in line 4"},
     {"[[body]]\nname = \"b\"\n[[event]]\nname = \"e\"\nwhen = 1\n[[event]]\nname = \"e\"\nwhen = 1", "9:8", "already"},
     {"[[body]]\nname = \"b\"\n[exact]\nc.r = 1", "6:3", "neither an extra state nor a part of a body"},
+    {"[[body]]\nname = \"b\"\n[exact]\nb.x = 1", "6:3", "neither an extra state nor a part of a body"},
     {"[[body]]\nname = \"b\"\n[exact]\nb.q = 1", "6:3", "did you mean 'b.r'?"},
     {"[[body]]\nname = \"b\"\n[[event]]\nname = \"e\"\nwhen = 1\nset = {mas = 1}", "8:8", "neither an extra state"},
     {"[[state]]\nname = \"m\"\nvalue = 1", "3:1", "[[state]] lacks the key 'rate'"},

@@ -112,7 +112,17 @@ TEST(SceneFile, DefaultsAreThoseOfTheFormat) {
 TEST(SceneFile, TheOtherSpellingsAreRead) {
   const std::string obstacle =
       "[[obstacle]]\nname = \"o\"\nshape = \"triangle\"\npoints = [[0,0,0],[1,0,0],\"[0,1,0]\"]\n";
-  EXPECT_EQ(parse_scene(kTime + kBall + obstacle, "s").obstacles.at(0).on_hit, OnHit::stop);
+  const ObstacleDefinition triangle = parse_scene(kTime + kBall + obstacle, "s").obstacles.at(0);
+  EXPECT_EQ(triangle.on_hit, OnHit::stop);
+  const auto& corners = std::get<TriangleDefinition>(triangle.shape);
+  EXPECT_NE(corners.a.text(), corners.b.text());
+  EXPECT_EQ(corners.c.text(), "[0,1,0]");
+  // An angle is a number: 50 % of a radian.
+  const std::string box =
+      "[[obstacle]]\nname = \"o\"\nshape = \"box\"\ncenter = [0,0,0]\nsize = [1,1,1]\n"
+      "orientation = {axis = [0,0,1], angle = \"50 %\"}\n";
+  const ObstacleDefinition turned = parse_scene(kTime + kBall + box, "s").obstacles.at(0);
+  EXPECT_EQ(number(*std::get<BoxDefinition>(turned.shape).orientation.angle_rad), 0.5);
   EXPECT_EQ(parse_scene(kTime + kBall + "[exact]\n\"ball.r\" = \"[t, 0, 0]\"\n", "s").exact.at(0).name, "ball.r");
   const std::string event = "[[event]]\nname = \"e\"\nwhen = \"ball.x\"\n";
   EXPECT_EQ(parse_scene(kTime + kBall + event + "action = {set = {ball.vx = 0}}", "s").events.at(0).set.at(0).name,
