@@ -1,6 +1,6 @@
 # Installs a build, then builds and runs a project that finds it with find_package(trajet).
 #
-#   cmake -DBUILD=... -DWORK=... -DSOURCE=... -DCXX=... -DFLAGS=... -P install_test.cmake
+#   cmake -DBUILD=... -DWORK=... -DSOURCE=... -DCXX=... -DFLAGS=... -DVERSION=... -P install_test.cmake
 cmake_minimum_required(VERSION 3.25)
 
 function(run)
@@ -21,3 +21,6 @@ run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${WORK}/installed)
 run(${CMAKE_COMMAND} -S ${SOURCE}/consumer -B ${WORK}/build -G Ninja
   -DCMAKE_PREFIX_PATH=${WORK}/installed -DCMAKE_CXX_COMPILER=${CXX} -DCMAKE_CXX_FLAGS=${FLAGS} -DCMAKE_BUILD_TYPE=Release)
 run(${CMAKE_COMMAND} --build ${WORK}/build)
+expect("trajet ${VERSION}: agree, landed" ${WORK}/build/core)
+expect("1 impact at 3 s, reported" ${WORK}/build/scene)
+expect("trajet ${VERSION}" ${WORK}/installed/bin/trajet --version)
