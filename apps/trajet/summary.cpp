@@ -75,7 +75,7 @@ std::string final_state(const Sample& final) {
 }
 
 std::string cost(const RunStatistics& statistics) {
-  return fmt::format("{} steps ({} rejected), {} law evaluations, {:.3g} ms\n", statistics.steps,
+  return fmt::format("steps: {} (rejected: {}), law evaluations: {}, time: {:.3g} ms\n", statistics.steps,
                      statistics.rejected_steps, statistics.law_evaluations, 1e3 * statistics.wall_seconds);
 }
 
