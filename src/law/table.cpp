@@ -23,7 +23,7 @@ double end_slope(double h0, double h1, double s0, double s1) {
 double inner_slope(double h0, double h1, double s0, double s1) {
   if (s0 * s1 <= 0.0) return 0.0;
   const double w0 = h0 + 2.0 * h1, w1 = 2.0 * h0 + h1;
-  return (w0 + w1) / (w1 / s0 + w0 / s1);
+  return (w0 + w1) / (w0 / s0 + w1 / s1);
 }
 
 bool is_separator(char c) { return c == ',' || c == ';' || c == ' ' || c == '\t' || c == '\r'; }
