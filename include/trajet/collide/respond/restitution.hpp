@@ -1,21 +1,30 @@
 #pragma once
 
+#include <cassert>
+
 #include "trajet/math/vector.hpp"
 
 namespace trajet {
 
-/// The change of velocity (m/s) of a body that bounces without friction off a fixed obstacle.
+/// What a frictionless impact does to a body.
+struct Rebound {
+  Vector3 velocity_after;    ///< m/s
+  Vector3 impulse_per_mass;  ///< velocity_after - velocity_before, m/s
+};
+
+/// The frictionless impact of a body on an obstacle at rest.
 ///
-///     v+ = v - (1 + e) (u . n) n
-///
-/// \param approach     u, the velocity of the body at the contact
-/// \param normal       n, unit, of the obstacle, towards the body
-/// \param restitution  e, the part of the normal speed that is kept, 0..1
-/// A body that moves away already keeps its velocity. The impulse is the mass times this.
-inline Vector3 restitution_velocity_change(const Vector3& approach, const Vector3& normal, double restitution) {
-  const double normal_speed = approach.dot(normal);
-  if (normal_speed >= 0.0) return Vector3::Zero();
-  return -(1.0 + restitution) * normal_speed * normal;
+/// \param velocity     before the impact, m/s
+/// \param normal       unit, of the obstacle, towards the body
+/// \param restitution  0: keeps no normal speed, 1: keeps all of it
+/// A body that moves away from the obstacle already keeps its velocity.
+inline Rebound rebound(const Vector3& velocity, const Vector3& normal, double restitution) {
+  assert(0.0 <= restitution && restitution <= 1.0);
+  const double approach = velocity.dot(normal);
+  if (approach >= 0.0) return {velocity, Vector3::Zero()};
+  // v+ = v - (1 + e) (v . n) n
+  const Vector3 impulse = -(1.0 + restitution) * approach * normal;
+  return {velocity + impulse, impulse};
 }
 
 }  // namespace trajet
