@@ -51,8 +51,6 @@ class RungeKuttaBase {
  protected:
   using Step = detail::RungeKuttaStep<Method, Dim>;
   static constexpr int kDegree = Method::kTableau.kDenseDegree;
-  // With fixed steps, the last stage waits until the next step or a Segment asks for it.
-  static constexpr std::size_t kComputedStages = Method::kErrorControlled ? Step::kStages : Step::kStages - 1;
   // q1 is rounded twice, and so are the polynomials' values near it.
   static constexpr double kRounding = 2.0 * std::numeric_limits<double>::epsilon();
 
@@ -71,8 +69,9 @@ class RungeKuttaBase {
     end_rate_known_ = true;
   }
 
-  /// Prepares the step from the current state, lets attempt(step) compute it, and keeps it if that returns `ok`.
-  template <class Attempt>
+  /// Prepares the step from the current state, lets attempt(step) compute it with its first `Computed` stages, and
+  /// keeps it if that returns `ok`.
+  template <std::size_t Computed, class Attempt>
   TRAJET_INLINE StepStatus advance_by(Attempt&& attempt) {
     if constexpr (detail::kIsUnrolled<Dim>) {
       // A local step stays in registers; the kept one is written once, at the end.
@@ -85,7 +84,7 @@ class RungeKuttaBase {
         evaluate(step.t0, step.q0, step.k[0]);
       }
       const StepStatus status = attempt(step);
-      if (status == StepStatus::ok) keep(step, std::make_index_sequence<kComputedStages>{});
+      if (status == StepStatus::ok) keep(step, std::make_index_sequence<Computed>{});
       return status;
     } else {
       rotate();
@@ -154,7 +153,8 @@ class FixedStepRungeKutta : public RungeKuttaBase<Method, Rate, Dim> {
 
   TRAJET_FLATTEN StepStatus advance(double t_limit) {
     assert(t_limit != this->time());
-    return this->advance_by([&](Step & step) __attribute__((always_inline)) {
+    // The last stage waits until the next step or a Segment asks for it.
+    return this->template advance_by<Step::kStages - 1>([&](Step & step) __attribute__((always_inline)) {
       step.t1 = grid_.next(step.t0, t_limit);
       step.compute(this->rate_);
       this->statistics_.law_evaluations += static_cast<long>(Step::kStages) - 2;
@@ -198,7 +198,7 @@ class AdaptiveRungeKutta : public RungeKuttaBase<Method, Rate, Dim> {
   TRAJET_FLATTEN StepStatus advance(double t_limit) {
     assert(t_limit != this->time());
     if (next_step_ == 0.0) next_step_ = first_step(t_limit);
-    return this->advance_by([&](Step & step) __attribute__((always_inline)) {
+    return this->template advance_by<Step::kStages>([&](Step & step) __attribute__((always_inline)) {
       const double direction = t_limit > step.t0 ? 1.0 : -1.0;
       const double distance = std::abs(t_limit - step.t0);
       double h = std::max(next_step_, smallest_step(step.t0));

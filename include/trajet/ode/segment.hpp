@@ -18,7 +18,8 @@ template <int Dim = Eigen::Dynamic>
 class Segment {
  public:
   using State = Eigen::Matrix<double, Dim, 1>;
-  using Coefficients = Eigen::Matrix<double, Dim, Eigen::Dynamic, Eigen::ColMajor, Dim,
+  // Eigen calls a single row row-major; in memory it is the same.
+  using Coefficients = Eigen::Matrix<double, Dim, Eigen::Dynamic, Dim == 1 ? Eigen::RowMajor : Eigen::ColMajor, Dim,
                                      Dim == Eigen::Dynamic ? Eigen::Dynamic : kMaxSegmentDegree + 1>;
 
   /// Makes room for a polynomial of `degree` in `dimension` components. Allocates only when the size changes.
