@@ -1,6 +1,6 @@
 #include "event_watch.hpp"
 
-#include <algorithm>
+#include <utility>
 
 #include "trajet/math/number.hpp"
 
@@ -21,12 +21,13 @@ std::vector<int> read_components(const Program& program) {
 
 }  // namespace
 
-EventWatch::EventWatch(const Program& when, CrossingDirection direction)
-    : direction_(direction),
-      inputs_(read_components(when)),
-      state_(static_cast<std::size_t>(when.input_count - 1)),
-      values_(when),
-      enclosures_(when) {}
+EventWatch::EventWatch(Program when, CrossingDirection direction)
+    : program_(std::make_shared<const Program>(std::move(when))),
+      direction_(direction),
+      inputs_(read_components(*program_)),
+      state_(static_cast<std::size_t>(program_->input_count - 1)),
+      values_(*program_),
+      enclosures_(*program_) {}
 
 void EventWatch::restart(double t, const double* q) {
   double value = 0.0;
@@ -47,7 +48,8 @@ void EventWatch::search(const Segment<>& segment, double from) {
       next_ = {true, segment.t0() + root.time, 0, true};
       return false;
     }
-    const int before = root.at_begin ? sign_ : root.sign_before;
+    // what was seen last decides: a root that was counted lies ahead again where `from` is rounded
+    const int before = sign_ != 0 || root.at_begin ? sign_ : root.sign_before;
     const int after = root.sign_after;
     if (after == 0) return false;  // at the end of the Segment: the next one tells
     sign_ = after;

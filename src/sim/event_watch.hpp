@@ -1,11 +1,12 @@
 #pragma once
 
+#include <memory>
 #include <vector>
 
+#include "trajet/event/composed_function.hpp"
 #include "trajet/law/evaluate.hpp"
 #include "trajet/law/program.hpp"
 #include "trajet/math/series.hpp"
-#include "trajet/event/composed_function.hpp"
 #include "trajet/ode/segment.hpp"
 #include "trajet/sim/scene.hpp"
 
@@ -24,7 +25,7 @@ class EventWatch {
     bool undecided = false;   ///< neither shown nor excluded from `time` on
   };
 
-  EventWatch(const Program& when, CrossingDirection direction);
+  EventWatch(Program when, CrossingDirection direction);
 
   /// Forgets what it has seen: the state is `q` at time `t` now.
   void restart(double t, const double* q);
@@ -50,6 +51,7 @@ class EventWatch {
     }
   };
 
+  std::shared_ptr<const Program> program_;  // the evaluators keep pointers to it
   CrossingDirection direction_;
   std::vector<int> inputs_;
   std::vector<IntervalJet> state_;

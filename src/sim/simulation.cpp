@@ -185,6 +185,10 @@ void Simulation::handle_contact(int index, const Incident& incident) {
     fail(incident.time, "contact of '" + body.name + "' with '" + obstacle.name + "' is unresolved");
     return;
   }
+  if (impacts_at_once_ > kMaxImpactsAtOnce) {
+    fail(incident.time, "body '" + body.name + "' has impact after impact with '" + obstacle.name + "' at one instant");
+    return;
+  }
   sample_until(incident.time);
   const Impact impact = describe(index, incident, moving.state(incident.time));
   const bool is_hit = pair.contact.status == ContactStatus::hit && pair.contact.direction != ContactDirection::leaving;
@@ -217,14 +221,10 @@ void Simulation::bounce(int index, const Incident& incident, Impact impact) {
   auto velocity = q.segment<3>(body.offset + 3);
   // the velocity of the centre is dr/dt, which a position_rate may set apart from v
   const Vector3 approach = moving.rate(t, q).segment<3>(body.offset);
-  velocity += restitution_velocity_change(approach, impact.normal, obstacle.restitution);
+  velocity += trajet::rebound(approach, impact.normal, obstacle.restitution).impulse_per_mass;
   impact.velocity_after = velocity;
   impact.impulse = mass(body, t, q) * (impact.velocity_after - impact.velocity_before);
   record(impact);
-  if (impacts_at_once_ > kMaxImpactsAtOnce) {
-    fail(t, "body '" + body.name + "' bounces without end between obstacles");
-    return;
-  }
 
   const RestingTime rest = resting_time(moving, pair, impact, q);
   if (rest.rests) {
