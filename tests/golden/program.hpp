@@ -51,7 +51,8 @@ struct ProgramResult {
 };
 
 /// Runs the program `trajet`. If `interrupt_after_line` is given, sends SIGINT once that file has more than one line.
-inline ProgramResult run_trajet(const std::vector<std::string>& arguments, const std::string& interrupt_after_line = "") {
+inline ProgramResult run_trajet(const std::vector<std::string>& arguments,
+                                const std::string& interrupt_after_line = "") {
   const TemporaryFolder folder;
   const std::string out = folder.file("out"), err = folder.file("err");
   std::vector<std::string> words = arguments;

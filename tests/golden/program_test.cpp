@@ -52,9 +52,9 @@ TEST(Run, WritesSummaryReportAndSamples) {
   EXPECT_EQ(result.out.find('\033'), std::string::npos);  // no colours into a file
 
   const Json report = Json::parse(read_text(folder.file("r.json")));
-  EXPECT_EQ(keys(report), (std::vector<std::string>{"trajet", "scene", "title", "method", "status", "start_time", "end_time",
-                                                    "parameters", "impacts", "events", "final", "states", "warnings",
-                                                    "statistics"}));
+  EXPECT_EQ(keys(report),
+            (std::vector<std::string>{"trajet", "scene", "title", "method", "status", "start_time", "end_time",
+                                      "parameters", "impacts", "events", "final", "states", "warnings", "statistics"}));
   EXPECT_EQ(report["status"], "stopped");
   EXPECT_EQ(keys(report["parameters"]), (std::vector<std::string>{"theta", "v0", "g"}));
   ASSERT_EQ(report["impacts"].size(), 1u);
@@ -197,7 +197,8 @@ TEST(ExitCodes, TellWhatWasWrong) {
 
 TEST(ExitCodes, AWrongSceneLeavesEarlierFilesAlone) {
   const TemporaryFolder folder;
-  const std::string wrong = folder.write("wrong.toml", "[time]\nend = 1\n[[body]]\nname = \"b\"\nvelocity = \"[g,0,0]\"\n");
+  const std::string wrong =
+      folder.write("wrong.toml", "[time]\nend = 1\n[[body]]\nname = \"b\"\nvelocity = \"[g,0,0]\"\n");
   const std::string earlier = folder.write("r.json", "{}");
   EXPECT_EQ(run_trajet({"run", wrong, "--json", earlier}).exit_code, 3);
   EXPECT_EQ(read_text(earlier), "{}");
@@ -209,12 +210,9 @@ TEST(Check, FindsWhatOnlyTheMeaningOfAnExpressionTells) {
     const char* message;
   };
   const Case cases[] = {
-      {"velocity = \"[1, 0, gg]\"", ":7:20: error:"},
-      {"velocity = \"g\"", ":7:"},
-      {"position = \"[t, 0, 0]\"", ":7:14: error:"},
-      {"acceleration = \"[0, 0, bal.x]\"", "did you mean 'ball.x'?"},
-      {"acceleration = [0, 0, \"g + r\"]", ":7:"},
-      {"position = [0, 0, \"1/0\"]", ":7:"},
+      {"velocity = \"[1, 0, gg]\"", ":7:20: error:"}, {"velocity = \"g\"", ":7:"},
+      {"position = \"[t, 0, 0]\"", ":7:14: error:"},  {"acceleration = \"[0, 0, bal.x]\"", "did you mean 'ball.x'?"},
+      {"acceleration = [0, 0, \"g + r\"]", ":7:"},    {"position = [0, 0, \"1/0\"]", ":7:"},
   };
   const TemporaryFolder folder;
   for (const Case& c : cases) {
@@ -246,8 +244,8 @@ TEST(Examples, TheFreeKickScores) {
   EXPECT_EQ(report["impacts"][0]["with"], "goal");
   EXPECT_EQ(report["events"][0]["event"], "apex");
   // Without spin it misses: the goal is missed or the wall is hit.
-  const Json straight = Json::parse(run_trajet({"run", TRAJET_SOURCE_DIR "/examples/free_kick.toml", "--json", "-", "--set",
-                                                "lift=0", "--end", "1.2 s"})
+  const Json straight = Json::parse(run_trajet({"run", TRAJET_SOURCE_DIR "/examples/free_kick.toml", "--json", "-",
+                                                "--set", "lift=0", "--end", "1.2 s"})
                                         .out);
   EXPECT_TRUE(straight["impacts"].empty() || straight["impacts"][0]["with"] != "goal");
 }
