@@ -84,7 +84,7 @@ TEST(Run, WritesSummaryReportAndSamples) {
 }
 
 TEST(Run, StandardOutputHoldsTheDataAlone) {
-  EXPECT_NO_THROW(Json::parse(run_trajet({"run", kRifleShot, "--json", "-"}).out));
+  EXPECT_TRUE(Json::accept(run_trajet({"run", kRifleShot, "--json", "-"}).out));
   EXPECT_TRUE(run_trajet({"run", kRifleShot, "--csv", "-"}).out.starts_with(kCsvHeader));
   EXPECT_EQ(run_trajet({"run", kRifleShot, "--quiet"}).out, "");
 }
