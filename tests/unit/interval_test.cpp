@@ -145,6 +145,15 @@ TEST(IntervalJet, DoesNotClaimARateAcrossAJumpNorACurvatureAcrossACorner) {
   }
 }
 
+TEST(IntervalJet, NotANumberIsNotLostInAChoice) {
+  const IntervalJet nan(Interval(std::numeric_limits<double>::quiet_NaN()));
+  const IntervalJet one(1.0);
+  for (const IntervalJet& x :
+       {max(nan, one), max(one, nan), min(nan, one), abs(nan), where(less(nan, one), nan, one)}) {
+    EXPECT_TRUE(empty(x[0]));
+  }
+}
+
 TEST(IntervalJet, WorksInEigenVectors) {
   const IntervalJet t = IntervalJet::variable(Interval(1.0, 2.0));
   const Vector3T<IntervalJet> x(t, t * t, IntervalJet(3.0));

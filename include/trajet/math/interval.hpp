@@ -113,9 +113,11 @@ inline Decision equal(const Interval& a, const Interval& b) {
   return decide(singleton(a) && singleton(b) && a.lower() == b.lower(), a.upper() < b.lower() || a.lower() > b.upper());
 }
 
-/// `a` where the condition holds, `b` where it fails, the hull of both where it is undecided.
+/// `a` where the condition holds, `b` where it fails, the hull of both where it is undecided, empty where one of them
+/// is.
 inline Interval where(Decision condition, const Interval& a, const Interval& b) {
-  return condition == Decision::yes ? a : condition == Decision::no ? b : hull(a, b);
+  if (condition != Decision::undecided) return condition == Decision::yes ? a : b;
+  return empty(a) || empty(b) ? Interval::empty() : hull(a, b);
 }
 
 inline Interval sign(const Interval& x) { return {sign(x.lower()), sign(x.upper())}; }
@@ -154,7 +156,7 @@ using IntervalJet = Series<Interval, 2>;
 /// A choice that may jump.
 inline IntervalJet where(Decision condition, const IntervalJet& a, const IntervalJet& b) {
   if (condition != Decision::undecided) return condition == Decision::yes ? a : b;
-  IntervalJet c(hull(a[0], b[0]));
+  IntervalJet c(where(condition, a[0], b[0]));
   c[1] = c[2] = Interval::whole();
   return c;
 }
@@ -162,8 +164,8 @@ inline IntervalJet where(Decision condition, const IntervalJet& a, const Interva
 /// A choice between functions whose values agree where the condition changes.
 inline IntervalJet where_continuous(Decision condition, const IntervalJet& a, const IntervalJet& b) {
   if (condition != Decision::undecided) return condition == Decision::yes ? a : b;
-  IntervalJet c(hull(a[0], b[0]));
-  c[1] = hull(a[1], b[1]);
+  IntervalJet c(where(condition, a[0], b[0]));
+  c[1] = where(condition, a[1], b[1]);
   c[2] = Interval::whole();
   return c;
 }

@@ -44,21 +44,26 @@ double position_rounding(const PointPath& path, const BoundingBall& bounds, doub
          2.0 * kUnitRoundoff * std::abs(tau) * speed;
 }
 
-/// A point that moves in the plane of a thin shape meets the edge, where it comes from outside.
+/// A point that moves in the plane of a thin shape meets the edge, where it comes from outside. On the shape it rests.
 template <class ThinShape>
-ContactResult contact_in_plane(const ThinShape& shape, const MovingBall& ball, ContactMemory memory) {
-  const double begin = detail::tau_interval(ball).begin;
-  if (!detail::is_handled(memory, ball)) {
+ContactResult contact_in_plane(const ThinShape& shape, const MovingBall& ball, const ContactMemory& memory) {
+  ContactMemory edge_memory = memory;
+  if (!memory.is_in_plane || !detail::is_handled(memory, ball)) {
+    const double begin = detail::tau_interval(ball).begin;
     const double rounding = position_rounding(ball.path, bounding_ball(shape), begin);
-    if (in_plane_gap(shape, ball.path.value(begin)) < -rounding) return detail::stays_separated(0);
-    memory.side = 0;
+    if (in_plane_gap(shape, ball.path.value(begin)) < -rounding) {
+      ContactResult rests;
+      rests.memory = memory;
+      if (detail::is_handled(memory, ball)) rests.memory.contact_time = ball.to;
+      return rests;
+    }
+    edge_memory = {};
   }
   const auto beyond_edge = [&shape](const auto& x) { return in_plane_gap(shape, x); };
-  ContactResult result = detail::solid_contact(beyond_edge, ball, memory, [&](const Vector3& position) {
+  ContactResult result = detail::solid_contact(beyond_edge, ball, edge_memory, [&](const Vector3& position) {
     return detail::SurfacePoint{closest_point(shape, position), edge_normal(shape, position)};
   });
-  // Inside and outside the edge are not the sides of the plane.
-  if (result.status == ContactStatus::separated) result.memory.side = 0;
+  result.memory.is_in_plane = true;
   return result;
 }
 
@@ -75,7 +80,10 @@ ContactResult point_contact(const ThinShape& shape, const MovingBall& ball, cons
     const Vector3 position = ball.path.value(tau);
     return in_plane_gap(shape, position) <= position_rounding(ball.path, bounds, tau);
   };
-  const auto contact = detail::ContactSearch(gap, kIsSolid, memory, detail::is_handled(memory, ball), is_within).run();
+  ContactMemory plane_memory = memory;
+  if (memory.is_in_plane) plane_memory.side = 0;
+  const auto contact =
+      detail::ContactSearch(gap, kIsSolid, plane_memory, detail::is_handled(memory, ball), is_within).run();
   if (contact.stays_at_zero) return contact_in_plane(shape, ball, memory);
   return detail::report(gap, contact, ball, kIsSolid, [&](const Vector3& position) {
     return detail::SurfacePoint{closest_point(shape, position), shape.normal};

@@ -44,18 +44,26 @@ class ContactSearch {
  private:
   void start() {
     const FunctionSample begin = gap_.at(gap_.begin());
-    if (std::abs(begin.jet.value) <= begin.tolerance) return;
-    const int sign = begin.jet.value > 0.0 ? 1 : -1;
-    if (side_ == 0) {
-      side_ = sign;
-      if (is_solid_ && sign < 0) contact_ = {ContactStatus::overlapping_at_start, gap_.begin(), 0.0, sign, sign, false};
-    } else if (sign != side_) {
-      // Between two searches the body came to the other side: rounding at a joint of Segments, or a contact just
-      // handled, from which it may be on its way back to its side.
-      const double forward = gap_.end() < gap_.begin() ? -1.0 : 1.0;
-      const bool returns = is_handled_ && forward * begin.jet.rate * side_ > 0.0;
-      if (!returns) cross({gap_.begin(), 0.0, RootKind::crossing, side_, sign, true, false});
+    const double value = begin.jet.value;
+    if (!std::isfinite(value) || std::abs(value) <= begin.tolerance) return;
+    const int sign = value > 0.0 ? 1 : -1;
+    bool is_touching = is_handled_;
+    if (side_ == 0 && is_solid_ && sign < 0) {
+      // A first position within the rounding of the motion to come is not inside yet.
+      is_touching = -value <= gap_.at(gap_.end()).tolerance;
+      if (!is_touching) {
+        contact_ = {ContactStatus::overlapping_at_start, gap_.begin(), 0.0, sign, sign, false};
+        return;
+      }
+      side_ = 1;
     }
+    if (side_ == 0) side_ = sign;
+    if (sign == side_) return;
+    // The body came to the other side between two searches by rounding at a joint of Segments, or it touches and may be
+    // on its way back to its side.
+    const double forward = gap_.end() < gap_.begin() ? -1.0 : 1.0;
+    const bool returns = is_touching && forward * begin.jet.rate * side_ > 0.0;
+    if (!returns) cross({gap_.begin(), 0.0, RootKind::crossing, side_, sign, true, false});
   }
 
   /// The gap is zero from the start on to this root: only what follows it tells where the body goes.
@@ -92,7 +100,8 @@ class ContactSearch {
   }
 
   void report(ContactStatus status, const Root& root, int side_after) {
-    contact_ = {status, root.time, root.error_bound, side_, side_after, false};
+    const double tau = root.at_begin ? gap_.begin() : root.time;
+    contact_ = {status, tau, root.error_bound, side_, side_after, false};
   }
 
   const F& gap_;

@@ -31,6 +31,8 @@ struct ContactMemory {
   int side = 0;
   /// The time of a contact that was reported last. A search that begins at this very time does not report it again.
   double contact_time = std::numeric_limits<double>::quiet_NaN();
+  /// Whether the side is that of the edge of a thin shape, in whose plane a point moves.
+  bool is_in_plane = false;
   /// Within this gap (m) a search that begins at `contact_time` is still in that contact.
   double tolerance = 0.0;
 };

@@ -40,6 +40,8 @@ ContactResult first_contact_with(const Box& box, const MovingBall& ball, const C
 /// - To go on after a contact, search again from ContactResult::time with its memory: then the next contact is found,
 /// in or out.
 inline ContactResult first_contact(const Shape& shape, const MovingBall& ball, const ContactMemory& memory = {}) {
+  // Nothing happens in no time, and what was known stays known.
+  if (ball.from == ball.to) return {.memory = memory};
   return std::visit([&](const auto& s) { return first_contact_with(s, ball, memory); }, shape);
 }
 
