@@ -25,12 +25,12 @@ Vector3T<T> difference(const Vector3T<T>& p, const Vector3& a) {
   return {p.x() - T(a.x()), p.y() - T(a.y()), p.z() - T(a.z())};
 }
 
+inline double square(double x) { return x * x; }
+
 template <class T>
 T squared_norm(const Vector3T<T>& v) {
   return square(v.x()) + square(v.y()) + square(v.z());
 }
-
-inline double square(double x) { return x * x; }
 
 /// `a` where the condition holds, else `b`: a choice between functions whose values and gradients agree where it
 /// changes. Number types that enclose derivatives have an overload beside the type that makes use of that.
