@@ -44,7 +44,7 @@ TRAJET_INLINE T derivative_convolution(const T* a, const T* b, int last, Order n
 template <class T, class Order>
 TRAJET_INLINE T multiply(const T* a, const T* b, Order n) {
   if (n == 0) return a[0] * b[0];
-  return convolution(a, b, 1, n - 1, n) + (a[0] * b[n] + a[n] * b[0]);
+  return (convolution(a, b, 1, n - 1, n) + a[0] * b[n]) + a[n] * b[0];
 }
 
 /// (a^2)[n]: half the products of multiply
@@ -55,7 +55,7 @@ TRAJET_INLINE T square(const T* a, Order n) {
   T sum = convolution(a, a, 1, half, n);
   sum = sum + sum;
   if (n % 2 == 0) sum += a[n / 2] * a[n / 2];
-  return sum + 2.0 * (a[0] * a[n]);
+  return sum + (2.0 * a[0]) * a[n];
 }
 
 /// c = a / b:  c[n] = (a[n] - sum_{k=1..n} b[k] c[n - k]) / b[0]

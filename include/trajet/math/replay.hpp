@@ -137,7 +137,8 @@ class Replay {
   friend TRAJET_INLINE Replay operator/(const Replay& a, const Replay& b) {
     if (b.is_constant()) {
       if (a.is_constant()) return Replay(a.constant_ / b.constant_);
-      return record(a.pass_, [&](T*) { return a.newest() / b.constant_; });
+      // a division at every order would lengthen the chain of dependent operations; the value itself stays exact
+      return record(a.pass_, [&](T*) { return N == 0 ? a.newest() / b.constant_ : a.newest() * (1.0 / b.constant_); });
     }
     return record(b.pass_, [&](T* c) {
       const T a_n = N == 0 ? a.newest() : a.coefficient();
