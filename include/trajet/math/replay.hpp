@@ -55,6 +55,18 @@ struct ReplayPass {
   TRAJET_INLINE T* slot(int index) const { return base + static_cast<std::ptrdiff_t>(index) * ReplayTape<T>::kStride; }
 };
 
+template <class T, int N>
+class Replay;
+
+namespace detail {
+template <class T, int N>
+double comparison_sign(const Replay<T, N>& a, const Replay<T, N>& b);
+template <class T, int N>
+Replay<T, N> greater_of(const Replay<T, N>& a, const Replay<T, N>& b);
+template <class T, int N>
+Replay<T, N> angle_of(const Replay<T, N>& y, const Replay<T, N>& x);
+}  // namespace detail
+
 /// The number type that a law meets during the replay of order N: a slot of the tape, or a constant.
 template <class T, int N>
 class Replay {
@@ -114,20 +126,20 @@ class Replay {
   }
   friend TRAJET_INLINE Replay operator+(const Replay& a, const Replay& b) {
     if (a.is_constant() && b.is_constant()) return Replay(a.constant_ + b.constant_);
-    if (a.is_constant()) return b + a;
-    if (b.is_constant()) return record(a.pass_, [&](T*) { return N == 0 ? a.newest() + b.constant_ : a.newest(); });
+    if (a.is_constant()) return b.plus(a.constant_);
+    if (b.is_constant()) return a.plus(b.constant_);
     return record(a.pass_, [&](T*) { return a.newest() + b.newest(); });
   }
   friend TRAJET_INLINE Replay operator-(const Replay& a, const Replay& b) {
     if (a.is_constant() && b.is_constant()) return Replay(a.constant_ - b.constant_);
-    if (b.is_constant()) return a + Replay(-b.constant_);
+    if (b.is_constant()) return a.plus(-b.constant_);
     if (a.is_constant()) return record(b.pass_, [&](T*) { return N == 0 ? a.constant_ - b.newest() : -b.newest(); });
     return record(a.pass_, [&](T*) { return a.newest() - b.newest(); });
   }
   friend TRAJET_INLINE Replay operator*(const Replay& a, const Replay& b) {
     if (a.is_constant() && b.is_constant()) return Replay(a.constant_ * b.constant_);
-    if (b.is_constant()) return record(a.pass_, [&](T*) { return a.newest() * b.constant_; });
-    if (a.is_constant()) return b * a;
+    if (a.is_constant()) return b.times(a.constant_);
+    if (b.is_constant()) return a.times(b.constant_);
     if (a.slot_ == b.slot_)
       return record(a.pass_, [&](T*) { return recurrence::square<T>(a.pass_->slot(a.slot_), kOrder); });
     return record(a.pass_, [&](T*) {
@@ -146,7 +158,28 @@ class Replay {
     });
   }
 
+  // Functions of two numbers are friends, so that either may be a plain number.
+  friend TRAJET_INLINE bool operator<(const Replay& a, const Replay& b) { return detail::comparison_sign(a, b) < 0.0; }
+  friend TRAJET_INLINE bool operator>(const Replay& a, const Replay& b) { return detail::comparison_sign(a, b) > 0.0; }
+  friend TRAJET_INLINE bool operator<=(const Replay& a, const Replay& b) { return detail::comparison_sign(a, b) <= 0.0; }
+  friend TRAJET_INLINE bool operator>=(const Replay& a, const Replay& b) { return detail::comparison_sign(a, b) >= 0.0; }
+  friend TRAJET_INLINE bool operator==(const Replay& a, const Replay& b) { return detail::comparison_sign(a, b) == 0.0; }
+  friend TRAJET_INLINE bool less(const Replay& a, const Replay& b) { return a < b; }
+  friend TRAJET_INLINE bool less_equal(const Replay& a, const Replay& b) { return a <= b; }
+  friend TRAJET_INLINE bool equal(const Replay& a, const Replay& b) { return a == b; }
+  friend TRAJET_INLINE Replay where(bool condition, const Replay& a, const Replay& b) { return condition ? a : b; }
+  friend TRAJET_INLINE Replay max(const Replay& a, const Replay& b) { return detail::greater_of(a, b); }
+  friend TRAJET_INLINE Replay min(const Replay& a, const Replay& b) { return -detail::greater_of(-a, -b); }
+  friend TRAJET_INLINE Replay atan2(const Replay& y, const Replay& x) { return detail::angle_of(y, x); }
+
  private:
+  TRAJET_INLINE Replay plus(double constant) const {
+    return record(pass_, [&](T*) { return N == 0 ? newest() + constant : newest(); });
+  }
+  TRAJET_INLINE Replay times(double constant) const {
+    return record(pass_, [&](T*) { return newest() * constant; });
+  }
+
   ReplayPass<T>* pass_ = nullptr;
   int slot_ = -1;
   double constant_ = 0.0;
@@ -176,39 +209,6 @@ TRAJET_INLINE double comparison_sign(const Replay<T, N>& a, const Replay<T, N>& 
 }
 
 }  // namespace detail
-
-template <class T, int N>
-TRAJET_INLINE bool operator<(const Replay<T, N>& a, const Replay<T, N>& b) {
-  return detail::comparison_sign(a, b) < 0.0;
-}
-template <class T, int N>
-TRAJET_INLINE bool operator>(const Replay<T, N>& a, const Replay<T, N>& b) {
-  return detail::comparison_sign(a, b) > 0.0;
-}
-template <class T, int N>
-TRAJET_INLINE bool operator<=(const Replay<T, N>& a, const Replay<T, N>& b) {
-  return detail::comparison_sign(a, b) <= 0.0;
-}
-template <class T, int N>
-TRAJET_INLINE bool operator>=(const Replay<T, N>& a, const Replay<T, N>& b) {
-  return detail::comparison_sign(a, b) >= 0.0;
-}
-template <class T, int N>
-TRAJET_INLINE bool operator==(const Replay<T, N>& a, const Replay<T, N>& b) {
-  return detail::comparison_sign(a, b) == 0.0;
-}
-template <class T, int N>
-TRAJET_INLINE bool less(const Replay<T, N>& a, const Replay<T, N>& b) {
-  return a < b;
-}
-template <class T, int N>
-TRAJET_INLINE bool less_equal(const Replay<T, N>& a, const Replay<T, N>& b) {
-  return a <= b;
-}
-template <class T, int N>
-TRAJET_INLINE Replay<T, N> where(bool condition, const Replay<T, N>& a, const Replay<T, N>& b) {
-  return condition ? a : b;
-}
 
 }  // namespace trajet
 

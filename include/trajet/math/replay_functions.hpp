@@ -171,13 +171,11 @@ TRAJET_INLINE Replay<T, N> atan(const Replay<T, N>& x) {
       [](const T* a, T* y, T* w, auto n) { recurrence::atan<T>(a, y, w, n); });
 }
 
-/// y(t) at the angle of the point (x, y)
+namespace detail {
+
 template <class T, int N>
-TRAJET_INLINE Replay<T, N> atan2(const Replay<T, N>& y, const Replay<T, N>& x) {
+TRAJET_INLINE Replay<T, N> angle_of_slots(const Replay<T, N>& y, const Replay<T, N>& x) {
   using std::atan2;
-  if (x.is_constant() && y.is_constant()) return atan2(y.constant(), x.constant());
-  if (x.is_constant()) return atan2(y, x.constant() + 0.0 * y);
-  if (y.is_constant()) return atan2(y.constant() + 0.0 * x, x);
   return Replay<T, N>::record_pair(x.pass(), [&](T* a, T* w) {
     const T* y_slot = x.pass()->slot(y.slot());
     const T* x_slot = x.pass()->slot(x.slot());
@@ -188,7 +186,15 @@ TRAJET_INLINE Replay<T, N> atan2(const Replay<T, N>& y, const Replay<T, N>& x) {
   });
 }
 
-namespace detail {
+/// The angle of the point (x, y).
+template <class T, int N>
+TRAJET_INLINE Replay<T, N> angle_of(const Replay<T, N>& y, const Replay<T, N>& x) {
+  using std::atan2;
+  if (x.is_constant() && y.is_constant()) return atan2(y.constant(), x.constant());
+  if (x.is_constant()) return angle_of_slots(y, x.constant() + 0.0 * y);
+  if (y.is_constant()) return angle_of_slots(y.constant() + 0.0 * x, x);
+  return angle_of_slots(y, x);
+}
 
 /// The side of zero on which x is just after the point of expansion, as far as its coefficients up to n tell: -1, 0, 1.
 template <class T>
@@ -197,9 +203,22 @@ TRAJET_INLINE double side_after(double decided, const T* x, int n) {
   return decided;
 }
 
+/// The one that is greater just after the point of expansion.
+template <class T, int N>
+TRAJET_INLINE Replay<T, N> greater_of(const Replay<T, N>& a, const Replay<T, N>& b) {
+  const Replay<T, N> difference = a - b;
+  if (difference.is_constant()) return difference.constant() < 0.0 ? b : a;
+  const double decided = branch_sign(difference);
+  return Replay<T, N>::record(difference.pass(), [&](T*) {
+    const bool second = side_after(decided, difference.pass()->slot(difference.slot()), N) < 0.0;
+    const Replay<T, N>& chosen = second ? b : a;
+    return N == 0 ? chosen.newest() : chosen.coefficient();
+  });
+}
+
 }  // namespace detail
 
-/// |x|, min and max take the branch that holds just after the point of expansion.
+/// |x| on the branch that holds just after the point of expansion.
 template <class T, int N>
 TRAJET_INLINE Replay<T, N> abs(const Replay<T, N>& x) {
   if (x.is_constant()) return std::abs(x.constant());
@@ -207,21 +226,6 @@ TRAJET_INLINE Replay<T, N> abs(const Replay<T, N>& x) {
   return Replay<T, N>::record(x.pass(), [&](T*) {
     return detail::side_after(decided, x.pass()->slot(x.slot()), N) < 0.0 ? -x.newest() : x.newest();
   });
-}
-template <class T, int N>
-TRAJET_INLINE Replay<T, N> max(const Replay<T, N>& a, const Replay<T, N>& b) {
-  const Replay<T, N> difference = a - b;
-  if (difference.is_constant()) return difference.constant() < 0.0 ? b : a;
-  const double decided = detail::branch_sign(difference);
-  return Replay<T, N>::record(difference.pass(), [&](T*) {
-    const bool second = detail::side_after(decided, difference.pass()->slot(difference.slot()), N) < 0.0;
-    const Replay<T, N>& chosen = second ? b : a;
-    return N == 0 ? chosen.newest() : chosen.coefficient();
-  });
-}
-template <class T, int N>
-TRAJET_INLINE Replay<T, N> min(const Replay<T, N>& a, const Replay<T, N>& b) {
-  return -max(-a, -b);
 }
 /// Piecewise constant: the value on the branch taken.
 template <class T, int N>

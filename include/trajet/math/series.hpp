@@ -12,12 +12,12 @@ namespace trajet {
 
 /// A power series in time truncated after t^N: a number type that carries a function's value and N exact derivatives.
 ///
-/// `x[k]` is the coefficient of t^k, the k-th derivative divided by k!. Arithmetic and functions are exact up to rounding in
-/// every coefficient; a product costs O(N^2). `T` is double, Pack or Interval. Comparisons look at the value alone;
-/// abs, min and max take the branch that holds just after t = 0.
+/// `x[k]` is the coefficient of t^k, the k-th derivative divided by k!. Arithmetic and functions are exact up to
+/// rounding in every coefficient; a product costs O(N^2). `T` is double, Pack or Interval. Comparisons look at the
+/// value alone; abs, min and max take the branch that holds just after t = 0.
 ///
-/// A whole expansion of a differential equation is cheaper order by order: see Replay and ProgramExpansion, which use the
-/// same recurrences.
+/// A whole expansion of a differential equation is cheaper order by order: see Replay and ProgramExpansion, which use
+/// the same recurrences.
 template <class T, int N>
 class Series {
  public:
@@ -27,11 +27,13 @@ class Series {
   /// Zero.
   constexpr Series() : coefficients_{} {}
   /// A constant.
-  constexpr Series(const T& value) : coefficients_{} { coefficients_[0] = value; }  // NOLINT(google-explicit-constructor)
+  constexpr Series(const T& value) : coefficients_{} {
+    coefficients_[0] = value;
+  }  // NOLINT(google-explicit-constructor)
   /// A constant given as a plain number.
   template <class Number>
-    requires(std::is_arithmetic_v<Number> && !std::is_same_v<Number, T>)
-  constexpr Series(Number value) : Series(T(static_cast<double>(value))) {}  // NOLINT(google-explicit-constructor)
+  requires(std::is_arithmetic_v<Number> && !std::is_same_v<Number, T>) constexpr Series(Number value)
+      : Series(T(static_cast<double>(value))) {}  // NOLINT(google-explicit-constructor)
 
   /// value + t: the independent variable at `value`.
   static Series variable(const T& value) {
@@ -91,6 +93,10 @@ class Series {
     return from([&](int k) { return where(condition, a[k], b[k]); });
   }
 
+  /// The greater and the lesser just after t = 0; friends, so that either may be a plain number.
+  friend Series max(const Series& a, const Series& b) { return where_continuous(is_less_behind_start(a, b), b, a); }
+  friend Series min(const Series& a, const Series& b) { return where_continuous(is_less_behind_start(b, a), b, a); }
+
   /// The series whose k-th coefficient is f(k), computed in rising order.
   template <class F>
   static Series from(const F& f) {
@@ -100,8 +106,24 @@ class Series {
   }
 
  private:
+  static auto is_less_behind_start(const Series& a, const Series& b) {
+    if constexpr (std::is_same_v<T, double>) {
+      const int k = recurrence::first_difference(a.data(), b.data(), N);
+      return k <= N && a[k] < b[k];
+    } else {
+      return less(a[0], b[0]);
+    }
+  }
+
   std::array<T, N + 1> coefficients_;
 };
+
+/// A choice between functions whose values agree where the condition changes. Coefficients that are Intervals have an
+/// overload of their own, which knows of the corner.
+template <class Condition, class T, int N>
+Series<T, N> where_continuous(const Condition& condition, const Series<T, N>& a, const Series<T, N>& b) {
+  return where(condition, a, b);
+}
 
 /// d/dt; the last coefficient is unknown and set to zero.
 template <class T, int N>
@@ -279,36 +301,11 @@ Series<T, N> atan2(const Series<T, N>& y, const Series<T, N>& x) {
   return a;
 }
 
-/// The branch of a function with a corner that holds just after t = 0, for coefficients of type double.
-template <int N>
-Series<double, N> abs(const Series<double, N>& x) {
-  const Series<double, N> zero;
-  const int k = recurrence::first_difference(x.data(), zero.data(), N);
-  return k <= N && x[k] < 0.0 ? -x : x;
-}
-template <int N>
-Series<double, N> min(const Series<double, N>& a, const Series<double, N>& b) {
-  const int k = recurrence::first_difference(a.data(), b.data(), N);
-  return k <= N && b[k] < a[k] ? b : a;
-}
-template <int N>
-Series<double, N> max(const Series<double, N>& a, const Series<double, N>& b) {
-  const int k = recurrence::first_difference(a.data(), b.data(), N);
-  return k <= N && a[k] < b[k] ? b : a;
-}
-
-/// Coefficient by coefficient with `where`, for coefficients whose comparison has more answers than yes and no.
+/// |x| on the branch that holds just after t = 0; for coefficients whose comparison has more answers than yes and no,
+/// coefficient by coefficient with `where`.
 template <class T, int N>
 Series<T, N> abs(const Series<T, N>& x) {
-  return where(less(x[0], T(0.0)), -x, x);
-}
-template <class T, int N>
-Series<T, N> min(const Series<T, N>& a, const Series<T, N>& b) {
-  return where(less(b[0], a[0]), b, a);
-}
-template <class T, int N>
-Series<T, N> max(const Series<T, N>& a, const Series<T, N>& b) {
-  return where(less(a[0], b[0]), b, a);
+  return max(x, -x);
 }
 
 template <class T, int N>
