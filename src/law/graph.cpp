@@ -203,8 +203,7 @@ int Graph::power(int a, int b) {
   if (k == 0.0) return constant(1.0);  // also of not-a-number, as pow has it
   const double size = std::abs(k), whole = std::floor(size);
   const bool is_half = size - whole == 0.5;
-  if (constant_value(a) || size > kLargestExponent || (size != whole && !is_half))
-    return operation(Opcode::power_constant, {a}, k);
+  if (size > kLargestExponent || (size != whole && !is_half)) return operation(Opcode::power_constant, {a}, k);
   int result = whole > 0.0 ? integer_power(a, static_cast<int>(whole)) : -1;
   if (is_half) result = result < 0 ? sqrt(a) : multiply(result, sqrt(a));
   return k > 0.0 ? result : divide(constant(1.0), result);

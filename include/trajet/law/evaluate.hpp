@@ -28,16 +28,26 @@ TRAJET_INLINE T squared(const T& a) {
   }
 }
 
-/// a^k by the overload for constant exponents where the number type has one.
+/// a^k; series have an overload for plain exponents.
 template <class T>
 TRAJET_INLINE T raised(const T& a, double k) {
   using std::pow;
-  if constexpr (requires {
-                  { pow(a, k) } -> std::same_as<T>;
-                }) {
+  if constexpr (requires { typename T::Coefficient; }) {
     return pow(a, k);
   } else {
     return pow(a, T(k));
+  }
+}
+
+template <class T>
+TRAJET_INLINE T decimal_logarithm(const T& a) {
+  using std::log, std::log10;
+  if constexpr (requires {
+                  { log10(a) } -> std::same_as<T>;
+                }) {
+    return log10(a);
+  } else {
+    return log(a) / log(T(10.0));
   }
 }
 
@@ -45,7 +55,7 @@ TRAJET_INLINE T raised(const T& a, double k) {
 template <class T>
 TRAJET_INLINE void execute(const Instruction& instruction, const Program& program, T* slots) {
   using std::abs, std::acos, std::asin, std::atan, std::atan2, std::cbrt, std::cos, std::cosh, std::exp, std::floor,
-      std::log, std::log10, std::pow, std::sin, std::sinh, std::sqrt, std::tan, std::tanh;
+      std::log, std::pow, std::sin, std::sinh, std::sqrt, std::tan, std::tanh;
   const T& a = slots[instruction.a];
   const T& b = slots[instruction.b];
   const T& c = slots[instruction.c];
@@ -103,7 +113,7 @@ TRAJET_INLINE void execute(const Instruction& instruction, const Program& progra
       result = log(a);
       break;
     case Opcode::log10:
-      result = log10(a);
+      result = decimal_logarithm(a);
       break;
     case Opcode::sin:
       result = sin(a);

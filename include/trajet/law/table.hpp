@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <concepts>
 #include <limits>
 #include <string>
 #include <type_traits>
@@ -59,6 +60,18 @@ class Table {
     return ((T(cell.c3) * u + T(cell.c2)) * u + T(cell.c1)) * u + T(cell.c0);
   }
 
+  /// `a` where the condition holds, else `b`, of neighbouring cells: values and slopes agree where they meet.
+  template <class Condition, class T>
+  static T join(const Condition& condition, const T& a, const T& b) {
+    if constexpr (requires {
+                    { where_smooth(condition, a, b) } -> std::same_as<T>;
+                  }) {
+      return where_smooth(condition, a, b);
+    } else {
+      return where(condition, a, b);
+    }
+  }
+
   std::vector<Cell> cells_;
   double last_;
 };
@@ -97,7 +110,7 @@ T Table::operator()(const T& x) const {
     const detail::Bounds range = detail::bounds(x);
     const int lowest = find_cell(range.lower), highest = find_cell(range.upper);
     T y = evaluate_cell(cell(lowest), x);
-    for (int i = lowest + 1; i <= highest; ++i) y = where(less(x, T(cell(i).begin)), y, evaluate_cell(cell(i), x));
+    for (int i = lowest + 1; i <= highest; ++i) y = join(less(x, T(cell(i).begin)), y, evaluate_cell(cell(i), x));
     if (contains(range.lower) && contains(range.upper)) return y;
     const T outside(std::numeric_limits<double>::quiet_NaN());
     return where(less(x, T(first())), outside, where(less_equal(x, T(last())), y, outside));
