@@ -146,7 +146,7 @@ TEST(IntervalJet, DoesNotClaimARateAcrossAJumpNorACurvatureAcrossACorner) {
 }
 
 TEST(IntervalJet, NotANumberIsNotLostInAChoice) {
-  const IntervalJet nan(Interval(std::numeric_limits<double>::quiet_NaN()));
+  const IntervalJet nan{Interval(std::numeric_limits<double>::quiet_NaN())};
   const IntervalJet one(1.0);
   for (const IntervalJet& x :
        {max(nan, one), max(one, nan), min(nan, one), abs(nan), where(less(nan, one), nan, one)}) {

@@ -16,7 +16,7 @@ namespace detail {
 /// a . b
 template <class T>
 T dot(const Vector3& a, const Vector3T<T>& b) {
-  return T(a.x()) * b.x() + T(a.y()) * b.y() + T(a.z()) * b.z();
+  return a.x() * b.x() + a.y() * b.y() + a.z() * b.z();
 }
 
 /// p - a
@@ -65,7 +65,7 @@ T squared_distance_to_edge(const Vector3& a, const Vector3& b, const Vector3T<T>
   const Vector3 e = (b - a) / length;
   const Vector3T<T> q = difference(p, a);
   const T along = dot<T>(e, q);
-  return squared_norm<T>({q.x() - along * T(e.x()), q.y() - along * T(e.y()), q.z() - along * T(e.z())}) +
+  return squared_norm<T>({q.x() - e.x() * along, q.y() - e.y() * along, q.z() - e.z() * along}) +
          squared_overhang<T>(-along) + squared_overhang<T>(along - T(length));
 }
 
@@ -130,7 +130,7 @@ T in_plane_gap(const Disk& disk, const Vector3T<T>& p) {
   const Vector3T<T> q = detail::difference(p, disk.center);
   const T a = detail::dot(disk.normal, q);
   const Vector3& n = disk.normal;
-  return norm3(q.x() - a * T(n.x()), q.y() - a * T(n.y()), q.z() - a * T(n.z())) - T(disk.radius);
+  return norm3(q.x() - n.x() * a, q.y() - n.y() * a, q.z() - n.z() * a) - T(disk.radius);
 }
 
 /// The direction of a rectangle's width.

@@ -15,13 +15,17 @@ namespace trajet {
 
 namespace detail {
 
-/// A double that is certainly below all real numbers that round to x: the predecessor of x or its predecessor
-/// [Rump2009].
+/// Just above half an ulp of 1: x - kHalfUlp |x|, rounded, is below every real number that rounds to x [Rump2009],
+/// unless x is so small that results underflow.
+inline constexpr double kHalfUlp = kUnitRoundoff * (1.0 + 0x1p-52);
+
+/// A double that is certainly below all real numbers that differ from x by at most `ulps` halves of an ulp.
 inline double next_below(double x, double ulps = 1.0) {
-  constexpr double kJustAboveUnitRoundoff = kUnitRoundoff * (1.0 + 0x1p-52);
-  const double below = x - (ulps * kJustAboveUnitRoundoff * std::abs(x) + std::numeric_limits<double>::denorm_min());
+  // Far below, the error of an underflow; far above the subnormal numbers, with which processors are slow.
+  constexpr double kTiny = 0x1p-900;
   // inf - inf: an overflow, whose lower bound is the largest double
-  return x == std::numeric_limits<double>::infinity() ? std::numeric_limits<double>::max() : below;
+  if (x == std::numeric_limits<double>::infinity()) return std::numeric_limits<double>::max();
+  return std::abs(x) < kTiny ? x - kTiny : x - ulps * kHalfUlp * std::abs(x);
 }
 inline double next_above(double x, double ulps = 1.0) { return -next_below(-x, ulps); }
 
@@ -40,14 +44,14 @@ class OutwardRounding {
   double conv_up(Number x) const {
     return static_cast<double>(x);
   }
-  double add_down(double a, double b) const { return next_below(a + b); }
-  double add_up(double a, double b) const { return next_above(a + b); }
-  double sub_down(double a, double b) const { return next_below(a - b); }
-  double sub_up(double a, double b) const { return next_above(a - b); }
-  double mul_down(double a, double b) const { return next_below(a * b); }
-  double mul_up(double a, double b) const { return next_above(a * b); }
-  double div_down(double a, double b) const { return next_below(a / b); }
-  double div_up(double a, double b) const { return next_above(a / b); }
+  double add_down(double a, double b) const { return sum_below(a + b); }
+  double add_up(double a, double b) const { return -sum_below(-a - b); }
+  double sub_down(double a, double b) const { return sum_below(a - b); }
+  double sub_up(double a, double b) const { return -sum_below(b - a); }
+  double mul_down(double a, double b) const { return a == 0.0 || b == 0.0 ? 0.0 : next_below(a * b); }
+  double mul_up(double a, double b) const { return a == 0.0 || b == 0.0 ? 0.0 : next_above(a * b); }
+  double div_down(double a, double b) const { return a == 0.0 ? 0.0 : next_below(a / b); }
+  double div_up(double a, double b) const { return a == 0.0 ? 0.0 : next_above(a / b); }
   double sqrt_down(double x) const { return std::max(0.0, next_below(std::sqrt(x))); }
   double sqrt_up(double x) const { return next_above(std::sqrt(x)); }
   double int_down(double x) const { return std::floor(x); }
@@ -78,6 +82,12 @@ class OutwardRounding {
   double tanh_up(double x) const { return above(std::tanh(x)); }
 
  private:
+  /// Sums do not underflow: where they are small they are exact.
+  static double sum_below(double x) {
+    if (x == std::numeric_limits<double>::infinity()) return std::numeric_limits<double>::max();
+    return x - kHalfUlp * std::abs(x);
+  }
+
   // glibc states at most 2 ulp for these functions; C libraries in use stay below 4.
   static constexpr double kFunctionUlps = 8.0;
   static double below(double x) { return next_below(x, kFunctionUlps); }
@@ -153,6 +163,11 @@ inline Interval atan2(const Interval& y, const Interval& x) {
 /// over: its rate is anything if it may jump, its second derivative is anything if it may have a corner.
 using IntervalJet = Series<Interval, 2>;
 
+/// A multiple: a third of the products that a general one costs.
+inline IntervalJet operator*(double a, const IntervalJet& x) {
+  return IntervalJet::from([&](int k) { return a * x[k]; });
+}
+
 /// A choice that may jump.
 inline IntervalJet where(Decision condition, const IntervalJet& a, const IntervalJet& b) {
   if (condition != Decision::undecided) return condition == Decision::yes ? a : b;
@@ -176,8 +191,6 @@ inline IntervalJet where_smooth(Decision condition, const IntervalJet& a, const 
 }
 
 inline IntervalJet abs(const IntervalJet& x) { return where_continuous(less(x[0], Interval(0.0)), -x, x); }
-inline IntervalJet min(const IntervalJet& a, const IntervalJet& b) { return where_continuous(less(b[0], a[0]), b, a); }
-inline IntervalJet max(const IntervalJet& a, const IntervalJet& b) { return where_continuous(less(a[0], b[0]), b, a); }
 
 namespace detail {
 /// Constant between its jumps.
