@@ -163,7 +163,7 @@ double ProgramExpansion::duration_until_branch(double duration) {
   for (std::size_t i = 0; i < branches_.size(); ++i) {
     double border = 0.0;
     const BranchTime end = end_of_branch(branches_[i], first.duration, border);
-    if (end.index < 0) continue;
+    if (end.index < 0 || std::isnan(end.sign_after)) continue;  // not-a-number: the caller sees it in the coefficients
     first = {end.duration, static_cast<int>(i), end.sign_after};
     first_border = border;
   }
