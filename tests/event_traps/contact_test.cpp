@@ -409,6 +409,48 @@ TEST(Contact, PressedIntoTheObstacleAfterABounceIsAHitAtOnce) {
   EXPECT_EQ(again[0].time, hit.time);
 }
 
+TEST(Contact, WhatARoundedJointHidesIsAHitAtTheJoint) {
+  // The last search ended before the plane, the next begins behind it.
+  ContactMemory before;
+  before.side = 1;
+  const auto found = contacts(segment(2.0, 3.0, {0, 0, -1e-9}, {0, 0, -1}), kGround, 0.0, before);
+  ASSERT_EQ(count(found), 1);
+  EXPECT_EQ(found[0].time, 2.0);
+  EXPECT_EQ(found[0].direction, ContactDirection::entering);
+}
+
+TEST(Contact, AHandledContactKeepsTheToleranceOfItsFlight) {
+  // After a long fall the state is rounded more coarsely than its own size tells; here it leaves without speed.
+  const ContactResult hit = contacts(segment(0.0, 60.0, {0, 0, 1e4}, {0, 0, 0}, kGravity), kGround)[0];
+  ASSERT_EQ(hit.status, ContactStatus::hit);
+  ASSERT_GT(hit.memory.tolerance, 1e-12);
+  const Vector3 rounded(0, 0, -0.5 * hit.memory.tolerance);
+  const auto after = contacts(segment(hit.time, 100.0, rounded, kNone, {0, 0, 1}), kGround, 0.0, rebounded(hit.memory));
+  EXPECT_EQ(after.size(), 1u);
+  EXPECT_EQ(after[0].status, ContactStatus::separated);
+}
+
+TEST(Contact, TangentToAPlaneFarFromTheOrigin) {
+  // The heights cancel: the gap is rounded like them, to 2e-12 m at most.
+  for (const double z : {0.1, 1000.1, 12345.6}) {
+    const auto found = contacts(segment(0.0, 1.0, {0, 0, z + 1.225}, {3.0, 0, -4.9}, {0, 0, 9.8}),
+                                make_plane({0, 0, z}, Vector3::UnitZ()));
+    EXPECT_EQ(count(found, ContactStatus::graze), 1) << z;
+    EXPECT_EQ(count(found), 0) << z;
+  }
+}
+
+TEST(Contact, OffTheEdgeAfterAHitInThePlaneIsNoHit) {
+  const Shape disk = make_disk(kNone, Vector3::UnitZ(), 1.0);
+  const ContactResult edge = contacts(segment(0.0, 10.0, {-5, 0, 0}, {1, 0, 0}), disk)[0];
+  ASSERT_EQ(edge.status, ContactStatus::hit);
+  for (const double speed : {1.0, -1.0}) {
+    const auto after =
+        contacts(segment(edge.time, 9.0, edge.position, {-1, 0, speed}), disk, 0.0, rebounded(edge.memory));
+    EXPECT_EQ(after.size(), 1u) << speed;
+  }
+}
+
 TEST(Contact, TwoObstaclesAtOneTime) {
   const Segment<3> s = segment(0.0, 3.0, {0, 0, 1}, {1, 0, -1});
   const double plane = contacts(s, kGround)[0].time;

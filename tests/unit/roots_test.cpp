@@ -146,6 +146,12 @@ TEST(Roots, MultipleOnesCountOnce) {
   EXPECT_EQ(fourth.roots[0].kind, RootKind::touch);
   EXPECT_NEAR(fourth.roots[0].time, 0.3, fourth.roots[0].error_bound);
 
+  // Where the terms vanish with the function, so does the tolerance: the touch is found on the smallest of pieces.
+  const Found at_zero = find({0.0, 0.0, 0.0, 0.0, 1.0}, -0.7, 1.0);
+  ASSERT_EQ(at_zero.roots.size(), 1u);
+  EXPECT_EQ(at_zero.roots[0].kind, RootKind::touch);
+  EXPECT_NEAR(at_zero.roots[0].time, 0.0, 1e-15);
+
   const Found fifth = find({0.0, 0.0, 0.0, 0.0, 0.0, 1.0}, -0.7, 1.0);
   ASSERT_EQ(fifth.roots.size(), 1u);
   EXPECT_EQ(fifth.roots[0].kind, RootKind::crossing);
@@ -170,6 +176,13 @@ TEST(Roots, JustBeyondTheEndsByRoundingOnlyBelongToIt) {
     EXPECT_EQ(find({1.0, -1.0 + 10.0 * shift}, 0.0, 1.0).roots.size(), 1u);
   }
   EXPECT_EQ(find({1.0, -0.99999}, 0.0, 1.0).roots.size(), 0u);
+}
+
+TEST(Roots, ACrossingWithinTheToleranceOfTheBeginIsWhereTheSignChanges) {
+  const Found found = find({-0.5, 1.0}, 0.45, 1.0, 0.1);
+  ASSERT_EQ(found.roots.size(), 1u);
+  EXPECT_TRUE(found.roots[0].at_begin);
+  EXPECT_EQ(found.roots[0].time, 0.5);
 }
 
 TEST(Roots, TouchAtTheEnd) {
