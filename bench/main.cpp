@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <map>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,37 +18,37 @@ struct Measurement {
   double error;
 };
 
-/// Keeps every run beside what the console shows.
-class Collector : public benchmark::ConsoleReporter {
+/// Collects the median of each case's repetitions.
+class Collector : public benchmark::BenchmarkReporter {
  public:
-  Collector() : ConsoleReporter(OO_Tabular) {}
+  bool ReportContext(const Context& context) override {
+    PrintBasicContext(&GetErrorStream(), context);
+    return true;
+  }
 
   void ReportRuns(const std::vector<Run>& runs) override {
-    ConsoleReporter::ReportRuns(runs);
     for (const Run& run : runs) {
-      if (run.run_type != Run::RT_Iteration || run.error_occurred) continue;
+      if (run.run_type != Run::RT_Aggregate || run.aggregate_name != "median") continue;
       const auto error = run.counters.find("error");
-      samples_[run.run_name.function_name].push_back(run.GetAdjustedCPUTime());
-      errors_[run.run_name.function_name] = error == run.counters.end() ? 0.0 : error->second.value;
+      all_.push_back({case_of(run.run_name.function_name), run.GetAdjustedCPUTime(),
+                      error == run.counters.end() ? 0.0 : error->second.value});
     }
   }
 
+  /// By problem, contender and method.
   std::vector<Measurement> measurements() const {
-    std::vector<Measurement> all;
-    for (auto [name, times] : samples_) {
-      const auto middle = times.begin() + static_cast<std::ptrdiff_t>(times.size() / 2);
-      std::nth_element(times.begin(), middle, times.end());
-      all.push_back({case_of(name), *middle, errors_.at(name)});
-    }
-    return all;
+    std::vector<Measurement> sorted = all_;
+    std::sort(sorted.begin(), sorted.end(),
+              [](const Measurement& a, const Measurement& b) { return name_of(a.properties) < name_of(b.properties); });
+    return sorted;
   }
 
  private:
-  std::map<std::string, std::vector<double>> samples_;
-  std::map<std::string, double> errors_;
+  std::vector<Measurement> all_;
 };
 
-const Measurement* fastest(const std::vector<Measurement>& all, const std::string& problem, Contender contender, double error) {
+const Measurement* fastest(const std::vector<Measurement>& all, const std::string& problem, Contender contender,
+                           double error) {
   const Measurement* best = nullptr;
   for (const Measurement& m : all)
     if (m.properties.problem == problem && m.properties.contender == contender && m.error <= error &&
@@ -78,9 +76,14 @@ void print_tables(const std::vector<Measurement>& all) {
   for (const Measurement& m : all)
     if (std::find(problems.begin(), problems.end(), m.properties.problem) == problems.end())
       problems.push_back(m.properties.problem);
+  std::printf("%-44s %12s %12s\n", "case", "time [us]", "error");
+  for (const Measurement& m : all)
+    std::printf("%-44s %12.3f %12.2e\n", name_of(m.properties).c_str(), m.microseconds, m.error);
   for (const std::string& problem : problems) {
-    std::printf("\n%s: the fastest run whose error at the end is within the accuracy (its own error behind it)\n", problem.c_str());
-    std::printf("%-8s | %-34s | %-34s | %-34s | law/  | scene/\n", "accuracy", "trajet, C++ law", "trajet, scene", "Boost.odeint");
+    std::printf("\n%s: the fastest run whose error at the end is within the accuracy (its own error behind it)\n",
+                problem.c_str());
+    std::printf("%-8s | %-34s | %-34s | %-34s | law/  | scene/\n", "accuracy", "trajet, C++ law", "trajet, scene",
+                "Boost.odeint");
     std::printf("%-8s | %-34s | %-34s | %-34s | odeint| odeint\n", "", "", "", "");
     for (int digits = 4; digits <= 14; digits += 2) {
       const double accuracy = std::pow(10.0, -digits);
@@ -107,7 +110,9 @@ Case case_of(const std::string& name) {
   const std::size_t first = name.find('/'), second = name.find('/', first + 1);
   const std::string contender = name.substr(first + 1, second - first - 1);
   return {name.substr(0, first),
-          contender == "law" ? Contender::law : contender == "scene" ? Contender::scene : Contender::odeint,
+          contender == "law"     ? Contender::law
+          : contender == "scene" ? Contender::scene
+                                 : Contender::odeint,
           name.substr(second + 1)};
 }
 
@@ -116,8 +121,8 @@ Case case_of(const std::string& name) {
 int main(int argc, char** argv) {
   // Short repetitions, taken in turn over all cases: a machine whose speed drifts then slows all contenders alike.
   std::vector<std::string> defaults = {argv[0], "--benchmark_min_time=0.02", "--benchmark_repetitions=5",
-                                       "--benchmark_enable_random_interleaving=true", "--benchmark_report_aggregates_only=false",
-                                       "--benchmark_display_aggregates_only=true"};
+                                       "--benchmark_enable_random_interleaving=true",
+                                       "--benchmark_report_aggregates_only=true"};
   defaults.insert(defaults.end(), argv + 1, argv + argc);
   std::vector<char*> arguments;
   for (std::string& argument : defaults) arguments.push_back(argument.data());

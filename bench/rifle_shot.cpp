@@ -2,21 +2,22 @@
 #include <array>
 #include <boost/numeric/odeint.hpp>
 #include <cmath>
-#include <numbers>
 #include <memory>
+#include <numbers>
 
 #include "trajet/collide/detect/table.hpp"
 #include "trajet/ode/solve.hpp"
 #include "work_precision.hpp"
 
-/// The rifle shot's impact: on the target (0.05 degrees) and on the ground (-0.5 degrees). The error is that of its time, in s.
+/// The rifle shot's impact: on the target (0.05 degrees) and on the ground (-0.5 degrees). The error is that of its
+/// time, in s.
 namespace trajet::bench {
 namespace {
 
 namespace odeint = boost::numeric::odeint;
 
-constexpr double kSpeed = 500.0, kGravity = 9.8, kHeight = 1.5;                     // m/s, m/s^2, m
-constexpr double kTargetDistance = 180.0, kTargetHeight = 1.0, kTargetRadius = 0.2; // m
+constexpr double kSpeed = 500.0, kGravity = 9.8, kHeight = 1.5;                      // m/s, m/s^2, m
+constexpr double kTargetDistance = 180.0, kTargetHeight = 1.0, kTargetRadius = 0.2;  // m
 
 struct Shot {
   const char* problem;
@@ -115,7 +116,8 @@ void add_odeint_search(const Shot& shot) {
 
 void add_rifle_shot() {
   constexpr double kDegree = std::numbers::pi / 180.0;
-  for (const Shot& shot : {Shot{"rifle shot on target", 0.05 * kDegree, true}, Shot{"rifle shot on ground", -0.5 * kDegree, false}}) {
+  for (const Shot& shot :
+       {Shot{"rifle shot on target", 0.05 * kDegree, true}, Shot{"rifle shot on ground", -0.5 * kDegree, false}}) {
     add_trajet<Taylor>(shot, "taylor", {});
     add_trajet<Dopri5>(shot, "dopri5", {.rtol = 1e-10, .atol = 1e-10});
     add_trajet<Rk4>(shot, "rk4", {.step = 0.3});

@@ -69,7 +69,8 @@ void add_laws(const char* problem) {
     if (tolerance >= 1e-13) add_law<Problem, Dopri5>(problem, labelled("dopri5", tolerance), options);
   }
   for (const int steps : kSteps)
-    add_law<Problem, Rk4>(problem, labelled("rk4", steps), {.step = (Problem::end_time() - Problem::start_time()) / steps});
+    add_law<Problem, Rk4>(problem, labelled("rk4", steps),
+                          {.step = (Problem::end_time() - Problem::start_time()) / steps});
 }
 
 /// A scene's group, compiled once. Its state is (r, v).

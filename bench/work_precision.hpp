@@ -16,7 +16,8 @@ struct Case {
   std::string method;  ///< with its tolerance or step
 };
 
-/// Registers `solve`, which solves the problem once and returns the error at its end. The error is printed with the time.
+/// Registers `solve`, which solves the problem once and returns the error at its end. The error is printed with the
+/// time.
 template <class Solve>
 void add_case(const Case& properties, Solve solve);
 

@@ -16,7 +16,7 @@ namespace trajet {
 template <class T>
 class ReplayTape {
  public:
-  static constexpr int kMaxOrder = 30;
+  static constexpr int kMaxOrder = 26;
   /// Coefficients of a slot, then one place for what an operation keeps between orders.
   static constexpr int kStride = kMaxOrder + 2;
 
@@ -46,13 +46,11 @@ class ReplayTape {
 template <class T>
 struct ReplayPass {
   ReplayTape<T>* tape;
-  T* base;  ///< slot 0
   int next_slot;
   int next_branch = 0;
-  /// Slots of `base`. An order-0 pass that needs more only counts them, in `next_slot`, and is run again.
+  /// Slots of the tape. An order-0 pass that needs more only counts them, in `next_slot`, and is run again.
   int capacity;
 
-  TRAJET_INLINE T* slot(int index) const { return base + static_cast<std::ptrdiff_t>(index) * ReplayTape<T>::kStride; }
 };
 
 template <class T, int N>
@@ -75,22 +73,26 @@ class Replay {
 
   Replay() = default;
   TRAJET_INLINE Replay(double constant) : constant_(constant) {}  // NOLINT(google-explicit-constructor)
-  TRAJET_INLINE Replay(ReplayPass<T>* pass, int slot) : pass_(pass), slot_(slot) {}
+  TRAJET_INLINE Replay(ReplayPass<T>* pass, T* base, int slot) : pass_(pass), base_(base), slot_(slot) {}
 
   TRAJET_INLINE bool is_constant() const { return pass_ == nullptr; }
   TRAJET_INLINE double constant() const { return constant_; }
   TRAJET_INLINE ReplayPass<T>* pass() const { return pass_; }
   TRAJET_INLINE int slot() const { return slot_; }
+  /// Its coefficients so far.
+  TRAJET_INLINE T* coefficients() const { return base_ + static_cast<std::ptrdiff_t>(slot_) * ReplayTape<T>::kStride; }
+  /// Another slot of the same tape.
+  TRAJET_INLINE Replay neighbour(int slot) const { return Replay(pass_, base_, slot); }
 
   /// The coefficient of the current order.
   TRAJET_INLINE T newest() const {
     if (is_constant()) return T(constant_);
-    return pass_->slot(slot_)[N];
+    return coefficients()[N];
   }
   /// That of a constant is zero beyond order 0.
   TRAJET_INLINE T coefficient() const {
     if (is_constant()) return T(0.0);
-    return pass_->slot(slot_)[N];
+    return coefficients()[N];
   }
 
   TRAJET_INLINE Replay& operator+=(const Replay& b) { return *this = *this + b; }
@@ -98,63 +100,65 @@ class Replay {
   TRAJET_INLINE Replay& operator*=(const Replay& b) { return *this = *this * b; }
   TRAJET_INLINE Replay& operator/=(const Replay& b) { return *this = *this / b; }
 
-  /// The next slot of the tape, whose newest coefficient is `compute(coefficients of the slot)`.
+  /// The next slot of the tape of `of`, whose newest coefficient is `compute(coefficients of the slot)`.
   template <class Compute>
-  TRAJET_INLINE static Replay record(ReplayPass<T>* pass, const Compute& compute) {
-    const int slot = pass->next_slot++;
-    if (N == 0 && slot >= pass->capacity) [[unlikely]]
-      return Replay(pass, 0);
-    T* coefficients = pass->slot(slot);
+  TRAJET_INLINE static Replay record(const Replay& of, const Compute& compute) {
+    const int slot = of.pass_->next_slot++;
+    if (N == 0 && slot >= of.pass_->capacity) [[unlikely]]
+      return of.neighbour(0);
+    const Replay result = of.neighbour(slot);
+    T* coefficients = result.coefficients();
     coefficients[N] = compute(coefficients);
-    return Replay(pass, slot);
+    return result;
   }
 
   /// Two slots of functions that are computed together by `compute(first, second)`; returns the first.
   template <class Compute>
-  TRAJET_INLINE static Replay record_pair(ReplayPass<T>* pass, const Compute& compute) {
-    const int slot = pass->next_slot;
-    pass->next_slot += 2;
-    if (N == 0 && slot + 1 >= pass->capacity) [[unlikely]]
-      return Replay(pass, 0);
-    compute(pass->slot(slot), pass->slot(slot + 1));
-    return Replay(pass, slot);
+  TRAJET_INLINE static Replay record_pair(const Replay& of, const Compute& compute) {
+    const int slot = of.pass_->next_slot;
+    of.pass_->next_slot += 2;
+    if (N == 0 && slot + 1 >= of.pass_->capacity) [[unlikely]]
+      return of.neighbour(0);
+    const Replay result = of.neighbour(slot);
+    compute(result.coefficients(), of.neighbour(slot + 1).coefficients());
+    return result;
   }
 
   friend TRAJET_INLINE Replay operator-(const Replay& a) {
     if (a.is_constant()) return Replay(-a.constant_);
-    return record(a.pass_, [&](T*) { return -a.newest(); });
+    return record(a, [&](T*) { return -a.newest(); });
   }
   friend TRAJET_INLINE Replay operator+(const Replay& a, const Replay& b) {
     if (a.is_constant() && b.is_constant()) return Replay(a.constant_ + b.constant_);
     if (a.is_constant()) return b.plus(a.constant_);
     if (b.is_constant()) return a.plus(b.constant_);
-    return record(a.pass_, [&](T*) { return a.newest() + b.newest(); });
+    return record(a, [&](T*) { return a.newest() + b.newest(); });
   }
   friend TRAJET_INLINE Replay operator-(const Replay& a, const Replay& b) {
     if (a.is_constant() && b.is_constant()) return Replay(a.constant_ - b.constant_);
     if (b.is_constant()) return a.plus(-b.constant_);
-    if (a.is_constant()) return record(b.pass_, [&](T*) { return N == 0 ? a.constant_ - b.newest() : -b.newest(); });
-    return record(a.pass_, [&](T*) { return a.newest() - b.newest(); });
+    if (a.is_constant()) return record(b, [&](T*) { return N == 0 ? a.constant_ - b.newest() : -b.newest(); });
+    return record(a, [&](T*) { return a.newest() - b.newest(); });
   }
   friend TRAJET_INLINE Replay operator*(const Replay& a, const Replay& b) {
     if (a.is_constant() && b.is_constant()) return Replay(a.constant_ * b.constant_);
     if (a.is_constant()) return b.times(a.constant_);
     if (b.is_constant()) return a.times(b.constant_);
     if (a.slot_ == b.slot_)
-      return record(a.pass_, [&](T*) { return recurrence::square<T>(a.pass_->slot(a.slot_), kOrder); });
-    return record(a.pass_, [&](T*) {
-      return recurrence::multiply<T>(a.pass_->slot(a.slot_), b.pass_->slot(b.slot_), kOrder);
+      return record(a, [&](T*) { return recurrence::square<T>(a.coefficients(), kOrder); });
+    return record(a, [&](T*) {
+      return recurrence::multiply<T>(a.coefficients(), b.coefficients(), kOrder);
     });
   }
   friend TRAJET_INLINE Replay operator/(const Replay& a, const Replay& b) {
     if (b.is_constant()) {
       if (a.is_constant()) return Replay(a.constant_ / b.constant_);
       // a division at every order would lengthen the chain of dependent operations; the value itself stays exact
-      return record(a.pass_, [&](T*) { return N == 0 ? a.newest() / b.constant_ : a.newest() * (1.0 / b.constant_); });
+      return record(a, [&](T*) { return N == 0 ? a.newest() / b.constant_ : a.newest() * (1.0 / b.constant_); });
     }
-    return record(b.pass_, [&](T* c) {
+    return record(b, [&](T* c) {
       const T a_n = N == 0 ? a.newest() : a.coefficient();
-      return recurrence::divide<T>(a_n, b.pass_->slot(b.slot_), c, kOrder);
+      return recurrence::divide<T>(a_n, b.coefficients(), c, kOrder);
     });
   }
 
@@ -174,13 +178,14 @@ class Replay {
 
  private:
   TRAJET_INLINE Replay plus(double constant) const {
-    return record(pass_, [&](T*) { return N == 0 ? newest() + constant : newest(); });
+    return record(*this, [&](T*) { return N == 0 ? newest() + constant : newest(); });
   }
   TRAJET_INLINE Replay times(double constant) const {
-    return record(pass_, [&](T*) { return newest() * constant; });
+    return record(*this, [&](T*) { return newest() * constant; });
   }
 
   ReplayPass<T>* pass_ = nullptr;
+  T* base_ = nullptr;  // of the tape: one address for all, so that the compiler sees which coefficients are the same
   int slot_ = -1;
   double constant_ = 0.0;
 };
@@ -195,7 +200,7 @@ TRAJET_INLINE double branch_sign(const Replay<T, N>& x) {
   ReplayTape<T>& tape = *pass->tape;
   const auto index = static_cast<std::size_t>(pass->next_branch++);
   if (N > 0) return tape.branches()[index].sign;
-  double value = trajet::sign(pass->slot(x.slot())[0]);
+  double value = trajet::sign(x.coefficients()[0]);
   if (index < tape.forced_signs().size() && tape.forced_signs()[index] != 0.0) value = tape.forced_signs()[index];
   tape.branches().push_back({x.slot(), value});
   return value;

@@ -16,8 +16,8 @@ template <class T, int N>
 TRAJET_INLINE Replay<T, N> sqrt(const Replay<T, N>& x) {
   using std::sqrt;
   if (x.is_constant()) return sqrt(x.constant());
-  const Replay<T, N> root = Replay<T, N>::record(x.pass(), [&](T* s) {
-    return recurrence::sqrt<T>(x.pass()->slot(x.slot()), s, s[ReplayTape<T>::kStride - 1], Replay<T, N>::kOrder);
+  const Replay<T, N> root = Replay<T, N>::record(x, [&](T* s) {
+    return recurrence::sqrt<T>(x.coefficients(), s, s[ReplayTape<T>::kStride - 1], Replay<T, N>::kOrder);
   });
   detail::branch_sign(root);  // a root that reaches zero must not go on below it, as the analytic continuation does
   return root;
@@ -26,9 +26,8 @@ TRAJET_INLINE Replay<T, N> sqrt(const Replay<T, N>& x) {
 template <class T, int N>
 TRAJET_INLINE Replay<T, N> norm3(const Replay<T, N>& x, const Replay<T, N>& y, const Replay<T, N>& z) {
   if (x.is_constant() || y.is_constant() || z.is_constant()) return sqrt(x * x + y * y + z * z);
-  const Replay<T, N> norm = Replay<T, N>::record(x.pass(), [&](T* s) {
-    ReplayPass<T>* pass = x.pass();
-    return recurrence::norm3<T>(pass->slot(x.slot()), pass->slot(y.slot()), pass->slot(z.slot()), s,
+  const Replay<T, N> norm = Replay<T, N>::record(x, [&](T* s) {
+    return recurrence::norm3<T>(x.coefficients(), y.coefficients(), z.coefficients(), s,
                                 s[ReplayTape<T>::kStride - 1], Replay<T, N>::kOrder);
   });
   detail::branch_sign(norm);
@@ -41,8 +40,8 @@ namespace detail {
 template <class T, int N, class Value, class Recurrence>
 TRAJET_INLINE Replay<T, N> replay_function(const Replay<T, N>& x, const Value& value, const Recurrence& next) {
   if (x.is_constant()) return Replay<T, N>(value(x.constant()));
-  return Replay<T, N>::record(x.pass(), [&](T* f) {
-    const T* x_slot = x.pass()->slot(x.slot());
+  return Replay<T, N>::record(x, [&](T* f) {
+    const T* x_slot = x.coefficients();
     return N == 0 ? value(x_slot[0]) : next(x_slot, f, Replay<T, N>::kOrder);
   });
 }
@@ -50,8 +49,8 @@ TRAJET_INLINE Replay<T, N> replay_function(const Replay<T, N>& x, const Value& v
 /// A function with a companion: `start(x0, f, g)` at order 0, `next(x, f, g, n)` beyond.
 template <class T, int N, class Start, class Recurrence>
 TRAJET_INLINE Replay<T, N> replay_pair(const Replay<T, N>& x, const Start& start, const Recurrence& next) {
-  return Replay<T, N>::record_pair(x.pass(), [&](T* f, T* g) {
-    const T* x_slot = x.pass()->slot(x.slot());
+  return Replay<T, N>::record_pair(x, [&](T* f, T* g) {
+    const T* x_slot = x.coefficients();
     if constexpr (N == 0)
       start(x_slot[0], f[0], g[0]);
     else
@@ -117,7 +116,7 @@ template <class T, int N>
 TRAJET_INLINE Replay<T, N> cos(const Replay<T, N>& x) {
   if (x.is_constant()) return std::cos(x.constant());
   const Replay<T, N> sine = sin(x);
-  return Replay<T, N>(sine.pass(), sine.slot() == 0 ? 0 : sine.slot() + 1);
+  return sine.neighbour(sine.slot() == 0 ? 0 : sine.slot() + 1);
 }
 template <class T, int N>
 TRAJET_INLINE Replay<T, N> sinh(const Replay<T, N>& x) {
@@ -131,7 +130,7 @@ template <class T, int N>
 TRAJET_INLINE Replay<T, N> cosh(const Replay<T, N>& x) {
   if (x.is_constant()) return std::cosh(x.constant());
   const Replay<T, N> sine = sinh(x);
-  return Replay<T, N>(sine.pass(), sine.slot() == 0 ? 0 : sine.slot() + 1);
+  return sine.neighbour(sine.slot() == 0 ? 0 : sine.slot() + 1);
 }
 template <class T, int N>
 TRAJET_INLINE Replay<T, N> tan(const Replay<T, N>& x) {
@@ -176,9 +175,9 @@ namespace detail {
 template <class T, int N>
 TRAJET_INLINE Replay<T, N> angle_of_slots(const Replay<T, N>& y, const Replay<T, N>& x) {
   using std::atan2;
-  return Replay<T, N>::record_pair(x.pass(), [&](T* a, T* w) {
-    const T* y_slot = x.pass()->slot(y.slot());
-    const T* x_slot = x.pass()->slot(x.slot());
+  return Replay<T, N>::record_pair(x, [&](T* a, T* w) {
+    const T* y_slot = y.coefficients();
+    const T* x_slot = x.coefficients();
     if constexpr (N == 0)
       a[0] = atan2(y_slot[0], x_slot[0]), w[0] = x_slot[0] * x_slot[0] + y_slot[0] * y_slot[0];
     else
@@ -209,8 +208,8 @@ TRAJET_INLINE Replay<T, N> greater_of(const Replay<T, N>& a, const Replay<T, N>&
   const Replay<T, N> difference = a - b;
   if (difference.is_constant()) return difference.constant() < 0.0 ? b : a;
   const double decided = branch_sign(difference);
-  return Replay<T, N>::record(difference.pass(), [&](T*) {
-    const bool second = side_after(decided, difference.pass()->slot(difference.slot()), N) < 0.0;
+  return Replay<T, N>::record(difference, [&](T*) {
+    const bool second = side_after(decided, difference.coefficients(), N) < 0.0;
     const Replay<T, N>& chosen = second ? b : a;
     return N == 0 ? chosen.newest() : chosen.coefficient();
   });
@@ -223,8 +222,8 @@ template <class T, int N>
 TRAJET_INLINE Replay<T, N> abs(const Replay<T, N>& x) {
   if (x.is_constant()) return std::abs(x.constant());
   const double decided = detail::branch_sign(x);
-  return Replay<T, N>::record(x.pass(), [&](T*) {
-    return detail::side_after(decided, x.pass()->slot(x.slot()), N) < 0.0 ? -x.newest() : x.newest();
+  return Replay<T, N>::record(x, [&](T*) {
+    return detail::side_after(decided, x.coefficients(), N) < 0.0 ? -x.newest() : x.newest();
   });
 }
 /// Piecewise constant: the value on the branch taken.

@@ -105,15 +105,16 @@ class LawExpansion {
   template <int Order>
   TRAJET_FLATTEN int replay(double* coefficients) {
     using Number = Replay<double, Order>;
-    ReplayPass<double> pass{&tape_, tape_.slot(0), 1 + dimension(), 0, tape_.capacity()};
+    double* const base = tape_.slot(0);
+    ReplayPass<double> pass{&tape_, 1 + dimension(), 0, tape_.capacity()};
     Eigen::Matrix<Number, Dim, 1> q(dimension()), dq(dimension());
-    for (int i = 0; i < dimension(); ++i) q[i] = Number(&pass, 1 + i);
-    law_(Number(&pass, 0), q, dq);
+    for (int i = 0; i < dimension(); ++i) q[i] = Number(&pass, base, 1 + i);
+    law_(Number(&pass, base, 0), q, dq);
     if (Order == 0 && pass.next_slot > pass.capacity) return pass.next_slot;
     double* next = coefficients + static_cast<std::ptrdiff_t>(Order + 1) * dimension();
     for (int i = 0; i < dimension(); ++i) {
       const double rate = Order == 0 ? dq[i].newest() : dq[i].coefficient();
-      next[i] = pass.slot(1 + i)[Order + 1] = rate * (1.0 / (Order + 1));
+      next[i] = q[i].coefficients()[Order + 1] = rate * (1.0 / (Order + 1));
     }
     return pass.next_slot;
   }
