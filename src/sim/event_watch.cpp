@@ -1,5 +1,6 @@
 #include "event_watch.hpp"
 
+#include <cmath>
 #include <utility>
 
 #include "trajet/math/number.hpp"
@@ -29,10 +30,24 @@ EventWatch::EventWatch(Program when, CrossingDirection direction)
       values_(*program_),
       enclosures_(*program_) {}
 
-void EventWatch::restart(double t, const double* q) {
+void EventWatch::restart(double t, const double* before, const double* q) {
+  double value_before = 0.0;
   double value = 0.0;
+  values_(t, before, &value_before);
   values_(t, q, &value);
-  sign_ = static_cast<int>(sign(value));
+  const auto is_now = [t](const Crossing& crossing) {
+    return crossing.found && std::abs(t - crossing.time) <= crossing.error_bound;
+  };
+  const bool is_pending = is_now(next_);
+  if ((is_pending || is_now(last_)) && value == value_before) {
+    // zero to rounding: where the motion goes from here is no second crossing
+    sign_ = 0;
+    at_zero_ = 2.0 * std::abs(value);
+  } else {
+    sign_ = static_cast<int>(sign(value));
+    at_zero_ = 0.0;
+  }
+  if (!is_pending) next_ = {};
 }
 
 bool EventWatch::wanted(int direction) const {
@@ -40,12 +55,14 @@ bool EventWatch::wanted(int direction) const {
 }
 
 void EventWatch::search(const Segment<>& segment, double from) {
+  if (next_.found) return;  // where the motion was restarted
   next_ = {};
   const Path<Eigen::Dynamic> path(segment, inputs_);
-  const ComposedFunction function(path, Function{&enclosures_, &inputs_, &state_}, from - segment.t0(), segment.duration());
+  const ComposedFunction function(path, Function{&enclosures_, &inputs_, &state_}, from - segment.t0(), segment.duration(),
+                                  std::exchange(at_zero_, 0.0));
   visit_roots(function, [&](const Root& root) {
     if (root.kind == RootKind::unresolved) {
-      next_ = {true, segment.t0() + root.time, 0, true};
+      next_ = {true, segment.t0() + root.time, 0.0, 0, true};
       return false;
     }
     // what was seen last decides: a root that was counted lies ahead again where `from` is rounded
@@ -54,7 +71,8 @@ void EventWatch::search(const Segment<>& segment, double from) {
     if (after == 0) return false;  // at the end of the Segment: the next one tells
     sign_ = after;
     if (root.kind == RootKind::touch || before == 0 || before == after || !wanted(after)) return true;
-    next_ = {true, segment.t0() + root.time, after, false};
+    const double time = segment.t0() + root.time;
+    next_ = {true, time, root.error_bound + 2.0 * kUnitRoundoff * std::abs(time), after, false};
     return false;
   });
 }

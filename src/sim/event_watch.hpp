@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "trajet/event/composed_function.hpp"
@@ -15,23 +16,28 @@ namespace trajet {
 /// Looks out for the times at which a program of t and the state crosses zero along a motion.
 ///
 /// A crossing at the joint of two Segments counts once: the watch remembers the sign it has seen last. A start on zero, a
-/// touch, and a jump of the state across zero are no crossings.
+/// touch, and a jump of the state across zero are no crossings. A motion that comes to zero where an impact or another
+/// event changes its state has crossed.
 class EventWatch {
  public:
   struct Crossing {
     bool found = false;
     double time = 0.0;
-    int direction = 0;        ///< +1 rising, -1 falling
-    bool undecided = false;   ///< neither shown nor excluded from `time` on
+    double error_bound = 0.0;  ///< s
+    int direction = 0;         ///< +1 rising, -1 falling
+    bool undecided = false;    ///< neither shown nor excluded from `time` on
   };
 
   EventWatch(Program when, CrossingDirection direction);
 
-  /// Forgets what it has seen: the state is `q` at time `t` now.
-  void restart(double t, const double* q);
-  /// The first crossing on the Segment behind `from`, which lies on it; remembered until the watch moves on.
+  /// The motion goes on at time `t` from state `q`; it came there in state `before`. A crossing at this time, within its
+  /// error bound, that was not taken yet stays the next one.
+  void restart(double t, const double* before, const double* q);
+  /// Finds the first crossing on the Segment behind `from`, which lies on it; remembered until the watch moves on.
   void search(const Segment<>& segment, double from);
   const Crossing& next() const { return next_; }
+  /// The crossing found has been dealt with.
+  void take() { last_ = std::exchange(next_, {}); }
 
  private:
   bool wanted(int direction) const;
@@ -57,7 +63,9 @@ class EventWatch {
   std::vector<IntervalJet> state_;
   Evaluator<double> values_;
   Evaluator<IntervalJet> enclosures_;
-  int sign_ = 0;  // seen last, 0 unknown
+  int sign_ = 0;         // seen last, 0 unknown
+  double at_zero_ = 0.0;  // values as small still belong to the crossing on which the motion was restarted
+  Crossing last_;        // that was taken
   Crossing next_;
 };
 

@@ -15,7 +15,7 @@ Motion::Motion(const World& world, int group) : world_(world), group_(group) {
     watches_.push_back({event, EventWatch(definition.when, definition.direction)});
   }
   use_law();
-  restart(world.start, this->group().start);
+  begin(world.start, this->group().start);
 }
 
 void Motion::use_law() {
@@ -34,39 +34,52 @@ void Motion::use_law() {
   }
 }
 
-void Motion::restart(double t, const Eigen::VectorXd& q) {
+void Motion::begin(double t, const Eigen::VectorXd& q) {
   stepper_->start(t, q);
   end_state_ = q;
   segment_.resize(static_cast<int>(q.size()), 0);
   segment_.set_interval(t, t);
   segment_.coefficients().col(0) = q;
   segment_.error_bound().setZero();
-  for (Watch& watch : watches_) watch.watch.restart(t, q.data());
-  for (ReleaseWatch& release : release_watches_) release.watch.restart(t, q.data());
+  for (Pair& pair : pairs_) pair.known_at = t;
   next_ = {t};
+}
+
+void Motion::restart(double t, const Eigen::VectorXd& q) {
+  const Eigen::VectorXd before = state(t);
+  for (Pair& pair : pairs_) know_until(pair, t);
+  for (Watch& watch : watches_) watch.watch.restart(t, before.data(), q.data());
+  for (ReleaseWatch& release : release_watches_) release.watch.restart(t, before.data(), q.data());
+  begin(t, q);
 }
 
 StepStatus Motion::advance() {
   const StepStatus status = stepper_->advance(world_.end);
   if (status != StepStatus::ok) return status;
+  for (Pair& pair : pairs_) know_until(pair, segment_.t1());
   stepper_->fill_segment(segment_);
   end_state_ = stepper_->state();
   const double from = segment_.t0();
-  for (Pair& pair : pairs_) search_contact(pair, from);
+  for (Pair& pair : pairs_) pair.contact = first_contact_until(pair, segment_.t1());
   for (Watch& watch : watches_) watch.watch.search(segment_, from);
   for (ReleaseWatch& release : release_watches_) release.watch.search(segment_, from);
   find_next();
   return status;
 }
 
-void Motion::search_contact(Pair& pair, double from) {
-  pair.contact = {};
-  if (pair.resting) return;
+ContactResult Motion::first_contact_until(const Pair& pair, double to) const {
+  if (pair.resting) return {};
   const World::Body& body = world_.bodies[static_cast<std::size_t>(pair.body)];
   const World::Obstacle& obstacle = world_.obstacles[static_cast<std::size_t>(pair.obstacle)];
   const PointPath path(segment_, body.offset);
-  pair.contact = first_contact(obstacle.shape, {path, body.radius, from, segment_.t1()}, pair.memory);
-  if (pair.contact.status == ContactStatus::separated) pair.memory = pair.contact.memory;
+  return first_contact(obstacle.shape, {path, body.radius, pair.known_at, to}, pair.memory);
+}
+
+void Motion::know_until(Pair& pair, double t) const {
+  if (pair.known_at == t) return;
+  const ContactResult contact = t == segment_.t1() ? pair.contact : first_contact_until(pair, t);
+  if (contact.status == ContactStatus::separated && !pair.resting) pair.memory = contact.memory;
+  pair.known_at = t;
 }
 
 void Motion::find_next() {
@@ -92,16 +105,26 @@ const EventWatch::Crossing& Motion::crossing(int event) const {
   std::abort();  // the event is one of the group's
 }
 
-void Motion::pass_event(int event) {
+void Motion::take_event(int event) {
   for (Watch& watch : watches_)
-    if (watch.event == event) watch.watch.search(segment_, watch.watch.next().time);
+    if (watch.event == event) watch.watch.take();
+}
+
+void Motion::pass_event(int event) {
+  for (Watch& watch : watches_) {
+    if (watch.event != event) continue;
+    const double time = watch.watch.next().time;
+    watch.watch.take();
+    watch.watch.search(segment_, time);
+  }
   find_next();
 }
 
 void Motion::pass_contact(int index) {
   Pair& pair = pairs_[static_cast<std::size_t>(index)];
   pair.memory = pair.contact.memory;
-  search_contact(pair, pair.contact.time);
+  pair.known_at = pair.contact.time;
+  pair.contact = first_contact_until(pair, segment_.t1());
   find_next();
 }
 

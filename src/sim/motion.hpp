@@ -31,8 +31,9 @@ class Motion {
     int body;      ///< in World::bodies
     int obstacle;  ///< in World::obstacles
     bool resting = false;
-    ContactMemory memory{};
-    ContactResult contact{};  ///< the next one on the current Segment
+    ContactMemory memory{};   ///< what is known of the pair at `known_at`
+    double known_at = 0.0;    ///< s
+    ContactResult contact{};  ///< the next one behind `known_at` on the current Segment
   };
 
   Motion(const World& world, int group);
@@ -41,7 +42,9 @@ class Motion {
   StepStatus advance();
   const Incident& next() const { return next_; }
 
-  /// The event was noticed and changed nothing.
+  /// The event was noticed; it is not the next one any more.
+  void take_event(int event);
+  /// Goes on from an event that changed nothing.
   void pass_event(int event);
   /// The body goes through the obstacle, or past it.
   void pass_contact(int pair);
@@ -53,16 +56,17 @@ class Motion {
   int end_rest(int resting);
   /// After a restart: the body has bounced off.
   void rebound(int pair, const ContactMemory& memory) { pairs_[static_cast<std::size_t>(pair)].memory = memory; }
-
-  /// After a restart that moved bodies elsewhere.
-  void forget_contacts() {
-    for (Pair& pair : pairs_) pair.memory = {};
+  /// After a restart that moved a body elsewhere.
+  void forget_contacts(int body) {
+    for (Pair& pair : pairs_)
+      if (pair.body == body) pair.memory = {};
   }
 
   const World::Group& group() const { return world_.groups[static_cast<std::size_t>(group_)]; }
   /// What the watch of an event of the group has found.
   const EventWatch::Crossing& crossing(int event) const;
   const Pair& pair(int index) const { return pairs_[static_cast<std::size_t>(index)]; }
+  const std::vector<Pair>& pairs() const { return pairs_; }
   const std::vector<RestingContact>& resting() const { return resting_; }
   const Segment<>& segment() const { return segment_; }
   /// The state at a time on the current Segment.
@@ -85,7 +89,11 @@ class Motion {
 
   /// Begins anew under the group's law, with the bodies held that rest.
   void use_law();
-  void search_contact(Pair& pair, double from);
+  void begin(double t, const Eigen::VectorXd& q);
+  /// The pair's first contact on the current Segment between `known_at` and `to`.
+  ContactResult first_contact_until(const Pair& pair, double to) const;
+  /// Moves what is known of a pair on to time t on the current Segment; all contacts before it are handled.
+  void know_until(Pair& pair, double t) const;
   void find_next();
 
   const World& world_;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "trajet/collide/respond/restitution.hpp"
+#include "trajet/geom/distance.hpp"
 #include "trajet/law/evaluate.hpp"
 
 namespace trajet {
@@ -125,9 +126,14 @@ void Simulation::handle_event(int index, const Incident& incident) {
       Eigen::VectorXd q = moving.state(incident.time);
       Eigen::VectorXd values(static_cast<Eigen::Index>(event.targets.size()));
       Evaluator<double>(event.set)(incident.time, q.data(), values.data());
+      const Eigen::VectorXd before = q;
       for (std::size_t i = 0; i < event.targets.size(); ++i) q[event.targets[i]] = values[static_cast<Eigen::Index>(i)];
+      moving.take_event(incident.index);
       moving.restart(incident.time, q);
-      moving.forget_contacts();
+      for (const int body : moving.group().bodies) {
+        const int offset = world_.bodies[static_cast<std::size_t>(body)].offset;
+        if (q.segment<3>(offset) != before.segment<3>(offset)) moving.forget_contacts(body);
+      }
       advance(index);
       return;
     }
@@ -163,11 +169,22 @@ void Simulation::record(const Impact& impact) {
     const double apart = std::abs(impact.time - last.time);
     impacts_at_once_ = apart == 0.0 ? impacts_at_once_ + 1 : 0;
     const bool is_tie = impact.with != last.with && apart <= impact.time_error_bound + last.time_error_bound;
-    if (is_tie && impact.kind != ImpactKind::rest && last.kind != ImpactKind::rest)
-      result_.warnings.push_back("the impacts of " + last.body + " with " + last.with + " and of " + impact.body + " with " +
-                                 impact.with + " are closer in time than their error bounds: they were taken in the order of the scene");
+    if (is_tie && impact.kind != ImpactKind::rest && last.kind != ImpactKind::rest) warn_of_tie(last, impact.body, impact.with);
   }
   result_.impacts.push_back(impact);
+}
+
+void Simulation::warn_of_tie(const Impact& impact, const std::string& body, const std::string& with) {
+  result_.warnings.push_back("the impacts of '" + impact.body + "' with '" + impact.with + "' and of '" + body + "' with '" +
+                             with + "' are closer in time than their error bounds: which is first is decided by rounding");
+}
+
+void Simulation::warn_of_hidden_ties(const Motion& moving, const Motion::Pair& handled, const Impact& impact) {
+  for (const Motion::Pair& other : moving.pairs()) {
+    if (&other == &handled || other.contact.status != ContactStatus::hit) continue;
+    if (std::abs(other.contact.time - impact.time) <= impact.time_error_bound + other.contact.time_error_bound)
+      warn_of_tie(impact, body_of(other).name, obstacle_of(other).name);
+  }
 }
 
 void Simulation::handle_contact(int index, const Incident& incident) {
@@ -196,6 +213,7 @@ void Simulation::handle_contact(int index, const Incident& incident) {
     write_sample(incident.time);
     write_sample(incident.time);
     record(impact);
+    warn_of_hidden_ties(moving, pair, impact);
     result_.status = RunStatus::stopped;
     running_ = false;
   } else if (is_hit && obstacle.on_hit == OnHit::bounce) {
@@ -241,11 +259,9 @@ void Simulation::bounce(int index, const Incident& incident, Impact impact) {
     impact.impulse = Vector3::Zero();
     record(impact);
     moving.begin_rest(incident.index, impact.normal);
-    moving.restart(t, q);
-  } else {
-    moving.restart(t, q);
-    moving.rebound(incident.index, trajet::rebounded(pair.contact.memory));
   }
+  moving.restart(t, q);
+  moving.rebound(incident.index, trajet::rebounded(pair.contact.memory));
   write_sample(t);
   advance(index);
 }
@@ -287,9 +303,11 @@ void Simulation::handle_leave(int index, const Incident& incident) {
   record(impact);
   moving.end_rest(incident.index);
   moving.restart(incident.time, q);
-  ContactMemory memory = pair.contact.memory;
-  memory.side = 1;
+  ContactMemory memory = pair.memory;
   memory.contact_time = incident.time;
+  // what the body has drifted off the surface while it rested is still contact
+  const Vector3 surface = std::visit([&](const auto& shape) { return closest_point(shape, impact.position); }, obstacle_of(pair).shape);
+  memory.tolerance = std::max(memory.tolerance, 2.0 * (surface - impact.point).norm());
   moving.rebound(contact.pair, memory);
   advance(index);
 }

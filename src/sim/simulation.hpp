@@ -39,6 +39,10 @@ class Simulation {
 
   void advance(int motion);
   void record(const Impact& impact);
+  /// Says that an impact of another pair may have been first as well.
+  void warn_of_tie(const Impact& impact, const std::string& body, const std::string& with);
+  /// The same for impacts that will not be handled because `impact` ends the run.
+  void warn_of_hidden_ties(const Motion& motion, const Motion::Pair& handled, const Impact& impact);
   void fail(double time, const std::string& reason);
   /// The impact as it stands before the response.
   Impact describe(int motion, const Incident& incident, const Eigen::VectorXd& q) const;

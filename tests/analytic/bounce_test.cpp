@@ -1,0 +1,241 @@
+// Bouncing and resting through whole runs.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "scene_run.hpp"
+
+namespace trajet {
+namespace {
+
+using test::Way;
+
+const std::string kGround = R"(
+[[obstacle]]
+name = "ground"
+shape = "plane"
+point = [0, 0, 0]
+normal = [0, 0, 1]
+on_hit = "bounce"
+)";
+
+std::vector<Way> ways() {
+  return {{"taylor", "name = \"taylor\"\n"}, {"dopri5", "name = \"dopri5\"\n"}, test::fixed("rk4", 0.05)};
+}
+
+/// A ball thrown upward from `height` with `speed`: contacts and the end of bouncing, in closed form.
+struct Bouncing {
+  double gravity, height, speed, restitution;
+  double first() const { return (speed + std::sqrt(speed * speed + 2.0 * gravity * height)) / gravity; }
+  double first_flight() const {
+    return 2.0 * restitution * std::sqrt(speed * speed + 2.0 * gravity * height) / gravity;
+  }
+  double contact(int i) const {
+    return first() + first_flight() * (1.0 - std::pow(restitution, i)) / (1.0 - restitution);
+  }
+  double end() const { return first() + first_flight() / (1.0 - restitution); }
+
+  RunResult run(const Way& way, double until, double radius = 0.0) const {
+    const std::string shape = radius > 0.0 ? "shape = \"sphere\"\nradius = " + test::number(radius) + "\n" : "";
+    return test::run_text("[time]\nend = " + test::number(until) + "\n[method]\n" + way.lines +
+                          "[[body]]\nname = \"ball\"\n" + shape + "position = [0, 0, " + test::number(height + radius) +
+                          "]\nvelocity = [1, 0, " + test::number(speed) + "]\nacceleration = [0, 0, " +
+                          test::number(-gravity) + "]\n" + kGround + "restitution = " + test::number(restitution) +
+                          "\n");
+  }
+};
+
+TEST(Bounce, PublishedContactsAndEnds) {
+  struct Published {
+    Bouncing ball;
+    std::vector<double> contacts;
+    double end;
+    double digits;  // half a unit of the last printed digit
+  };
+  const Published all[] = {{{9.81, 1.0, 0.0, 0.7}, {0.451523640985731}, 2.55863396558581, 1e-14},
+                           {{9.81, 1.0, 0.0, 0.9}, {0.451523640985731}, 8.57894917872889, 1e-14},
+                           // MATLAB's ballode
+                           {{9.8, 0.0, 20.0, 0.9}, {4.08163265, 7.75510204, 11.06122449}, 40.81632653, 5e-9}};
+  for (const Published& published : all) {
+    for (const Way& way : ways()) {
+      for (const double radius : {0.0, 0.25}) {
+        const RunResult result = published.ball.run(way, 1.5 * published.end, radius);
+        SCOPED_TRACE(way.name + " " + test::number(radius));
+        ASSERT_EQ(result.status, RunStatus::finished) << result.failure;
+        ASSERT_GE(result.impacts.size(), published.contacts.size());
+        for (std::size_t i = 0; i < published.contacts.size(); ++i) {
+          EXPECT_EQ(result.impacts[i].kind, ImpactKind::hit);
+          // a run rounds by some 1e-16 in each step
+          EXPECT_NEAR(result.impacts[i].time, published.contacts[i], published.digits + 1e-13);
+        }
+        const auto rests = test::impacts_of(result, ImpactKind::rest);
+        ASSERT_EQ(rests.size(), 1u);
+        // The end adds all flights; each is wrong by the rounding of its speed, carried on by e: 1e-13 in sum.
+        EXPECT_NEAR(rests[0]->time, published.end, published.digits + 1e-12);
+        EXPECT_EQ(result.impacts.back().kind, ImpactKind::rest);
+        // It slides on without friction.
+        const BodyState& ball = test::final_of(result, "ball");
+        EXPECT_NEAR(ball.position.x(), result.end_time, 1e-11);
+        EXPECT_NEAR(ball.position.z(), radius, 1e-9);
+        EXPECT_EQ(ball.velocity.z(), 0.0);
+      }
+    }
+  }
+}
+
+TEST(Bounce, EveryContactOfTheSeries) {
+  const Bouncing ball{9.81, 1.0, 0.0, 0.7};
+  const RunResult result = ball.run(ways()[0], 3.0);
+  const auto hits = test::impacts_of(result, ImpactKind::hit);
+  EXPECT_GT(hits.size(), 25u);  // 0.49^25 m is 2e-8 m
+  for (std::size_t i = 0; i < hits.size(); ++i)
+    EXPECT_NEAR(hits[i]->time, ball.contact(static_cast<int>(i)), 1e-14 * static_cast<double>(i + 1));
+}
+
+TEST(Bounce, NoRestitutionComesToRestAtOnce) {
+  const RunResult result = Bouncing{9.81, 1.0, 0.0, 0.0}.run(ways()[0], 2.0);
+  ASSERT_EQ(result.impacts.size(), 2u);
+  EXPECT_EQ(result.impacts[0].kind, ImpactKind::hit);
+  EXPECT_EQ(result.impacts[1].kind, ImpactKind::rest);
+  EXPECT_EQ(result.impacts[0].time, result.impacts[1].time);
+  EXPECT_EQ(test::final_of(result, "ball").velocity, Vector3(1, 0, 0));
+}
+
+TEST(Bounce, AnElasticBallKeepsItsEnergy) {
+  for (const Way& way : ways()) {
+    const RunResult result = Bouncing{9.81, 1.0, 0.0, 1.0}.run(way, 300.0);
+    ASSERT_EQ(result.status, RunStatus::finished) << way.name << result.failure;
+    // a flight lasts 2 * 0.4515 s
+    EXPECT_EQ(result.impacts.size(), 332u) << way.name;
+    const BodyState& ball = test::final_of(result, "ball");
+    const double energy = 9.81 * ball.position.z() + 0.5 * ball.velocity.z() * ball.velocity.z();
+    // Rounding adds a few 1e-15 J/kg in each of some thousand steps.
+    EXPECT_NEAR(energy, 9.81, 1e-11) << way.name;
+    for (const Impact& impact : result.impacts) {
+      EXPECT_EQ(impact.kind, ImpactKind::hit);
+      EXPECT_NEAR(impact.velocity_after.z(), std::sqrt(2.0 * 9.81), 1e-12);
+    }
+  }
+}
+
+TEST(Bounce, ImpulseIsTheChangeOfMomentum) {
+  const RunResult result = test::run_text(R"(
+[time]
+end = 1.5
+[[body]]
+name = "ball"
+position = [0, 0, 4.9]
+velocity = [2, 0, 0]
+force = [0, 0, "-9.8*mass"]
+mass = "3 + t"
+[[state]]
+name = "mass"
+value = 3
+rate = 1
+)" + kGround + "restitution = 0.5\n");
+  ASSERT_EQ(result.impacts.size(), 1u);
+  const Impact& hit = result.impacts[0];
+  EXPECT_NEAR(hit.time, 1.0, 1e-15);
+  EXPECT_NEAR(hit.velocity_before.z(), -9.8, 1e-14);
+  EXPECT_NEAR(hit.velocity_after.z(), 4.9, 1e-14);
+  EXPECT_NEAR(hit.impulse.z(), 4.0 * 14.7, 1e-12);
+  EXPECT_EQ(hit.impulse.x(), 0.0);
+}
+
+TEST(Rest, OnAnInclineItSlidesAsGravityPulls) {
+  // alpha = 30 degrees: a = g sin(alpha) along the slope
+  for (const Way& way : ways()) {
+    const RunResult result = test::run_text("[time]\nend = 6\n[method]\n" + way.lines + R"(
+[[body]]
+name = "ball"
+shape = "sphere"
+radius = 0.1
+position = "1.1*[sin(alpha), 0, cos(alpha)]"
+acceleration = [0, 0, -9.8]
+[parameters]
+alpha = "30 deg"
+[[obstacle]]
+name = "slope"
+shape = "plane"
+point = [0, 0, 0]
+normal = "[sin(alpha), 0, cos(alpha)]"
+on_hit = "bounce"
+restitution = 0.5
+)");
+    ASSERT_EQ(result.status, RunStatus::finished) << way.name << result.failure;
+    const auto rests = test::impacts_of(result, ImpactKind::rest);
+    ASSERT_EQ(rests.size(), 1u) << way.name;
+    const BodyState& ball = test::final_of(result, "ball");
+    const Vector3 along(std::cos(M_PI / 6.0), 0.0, -std::sin(M_PI / 6.0));
+    // Frictionless bounces leave the motion along the slope alone: s = g sin(alpha) t^2 / 2 from the start, v = g
+    // sin(alpha) t.
+    EXPECT_NEAR(ball.position.dot(along), 9.8 * 0.5 * 18.0, 1e-11) << way.name;
+    EXPECT_NEAR(ball.velocity.dot(along), 9.8 * 0.5 * 6.0, 1e-11) << way.name;
+    EXPECT_NEAR(ball.position.dot(Vector3(std::sin(M_PI / 6.0), 0, std::cos(M_PI / 6.0))), 0.1, 1e-9) << way.name;
+    EXPECT_NEAR(ball.acceleration.norm(), 4.9, 1e-12) << way.name;
+  }
+}
+
+TEST(Rest, OnABoxItSlidesOffTheEdgeAndFalls) {
+  for (const Way& way : ways()) {
+    const RunResult result = test::run_text("[time]\nend = 20\n[method]\n" + way.lines + R"(
+[[body]]
+name = "ball"
+position = [0, 0.1, 2]
+velocity = [0.5, 0, 0]
+acceleration = [0, 0, -9.8]
+[[obstacle]]
+name = "table"
+shape = "box"
+center = [0, 0, 0.5]
+size = [6, 2, 1]
+on_hit = "bounce"
+restitution = 0.5
+[[obstacle]]
+name = "ground"
+shape = "plane"
+point = [0, 0, 0]
+normal = [0, 0, 1]
+on_hit = "stop"
+)");
+    SCOPED_TRACE(way.name);
+    ASSERT_EQ(result.status, RunStatus::stopped) << result.failure;
+    const auto rests = test::impacts_of(result, ImpactKind::rest);
+    const auto leaves = test::impacts_of(result, ImpactKind::leave);
+    ASSERT_EQ(rests.size(), 1u);
+    ASSERT_EQ(leaves.size(), 1u);
+    const double fall = std::sqrt(2.0 / 9.8);
+    // fall + 2 e fall / (1 - e). The flights end 1e-10 m high: a height of 1 m that is rounded by 1e-16 m changes their
+    // speed of 5e-5 m/s by up to 1e-11 m/s, and so the duration of all that follow.
+    EXPECT_NEAR(rests[0]->time, 3.0 * fall, 1e-11);
+    EXPECT_NEAR(leaves[0]->time, 6.0, 1e-12);  // 3 m at 0.5 m/s
+    EXPECT_NEAR(leaves[0]->position.z(), 1.0, 1e-9);
+    EXPECT_EQ(leaves[0]->with, "table");
+    // It rests within the last flight's height of the table's top.
+    EXPECT_EQ(result.impacts.back().with, "ground");
+    EXPECT_NEAR(result.end_time, 6.0 + fall, 1e-9);
+    EXPECT_NEAR(test::final_of(result, "ball").position.x(), 3.0 + 0.5 * fall, 1e-9);
+  }
+}
+
+TEST(Rest, EndsWhenTheLawPullsAway) {
+  // Gravity turns over at t = 3: the ball leaves the ground then.
+  const RunResult result = test::run_text(R"(
+[time]
+end = 4
+[[body]]
+name = "ball"
+position = [0, 0, 1]
+acceleration = [0, 0, "t - 3"]
+)" + kGround + "restitution = 0\n");
+  ASSERT_EQ(result.status, RunStatus::finished) << result.failure;
+  const auto leaves = test::impacts_of(result, ImpactKind::leave);
+  ASSERT_EQ(leaves.size(), 1u);
+  EXPECT_NEAR(leaves[0]->time, 3.0, 1e-14);
+  // z = (t - 3)^3 / 6
+  EXPECT_NEAR(test::final_of(result, "ball").position.z(), 1.0 / 6.0, 1e-13);
+}
+
+}  // namespace
+}  // namespace trajet
