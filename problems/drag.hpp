@@ -12,9 +12,9 @@ struct Drag {
 
   template <class Time, class Vector, class Rate>
   void operator()(const Time&, const Vector& q, Rate& dq) const {
-    dq[0] = -q[0] * q[0] / 2.0;
-    dq[1] = -q[1] * q[1];
-    dq[2] = -q[2] * q[2] / 3.0;
+    dq[0] = q[0] * q[0] / -2.0;
+    dq[1] = q[1] * q[1] / -1.0;
+    dq[2] = q[2] * q[2] / -3.0;
     for (int i = 0; i < 3; ++i) dq[3 + i] = q[i];
   }
 

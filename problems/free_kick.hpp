@@ -13,10 +13,10 @@ struct FreeKick {
   template <class Time, class Vector, class Rate>
   void operator()(const Time&, const Vector& q, Rate& dq) const {
     using std::sqrt;
-    const auto drag = kDrag * sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2]);
-    dq[0] = -drag * q[0] - kMagnus * q[1];
-    dq[1] = -drag * q[1] + kMagnus * q[0];
-    dq[2] = -kGravity - drag * q[2];
+    const auto drag = -kDrag * sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2]);
+    dq[0] = drag * q[0] - kMagnus * q[1];
+    dq[1] = drag * q[1] + kMagnus * q[0];
+    dq[2] = drag * q[2] - kGravity;
     for (int i = 0; i < 3; ++i) dq[3 + i] = q[i];
   }
 

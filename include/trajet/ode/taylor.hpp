@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <optional>
 #include <utility>
 
@@ -142,6 +143,8 @@ class TaylorStepper {
     const double log_last = detail::rough_log2(weighted_coefficient(order_));
     const double log_last_but_one = detail::rough_log2(weighted_coefficient(order_ - 1));
     double log_step = -std::max(log_last * inverse_order_, log_last_but_one * inverse_order_less_one_);
+    // exp(-0.7 / (p - 1)) halves the last terms, so that those left out add up to less than the tolerance too
+    log_step -= 0.7 * std::numbers::log2e * inverse_order_less_one_;
     // Terms that matter must fall with their order. If those of the middle are below the tolerance, so that the last ones
     // have risen to it, what follows rises further, as before a pulse: then no step beyond the radius of convergence,
     // rho = (e_m / e_p)^(1 / (p - m)).
