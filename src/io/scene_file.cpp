@@ -111,8 +111,7 @@ class SceneReader {
   static MethodOptions read_method(const TableReader& table) {
     constexpr std::array<std::string_view, 9> kKeys{"name",  "rtol",      "atol",        "step",  "steps",
                                                     "order", "max_steps", "orientation", "locate"};
-    constexpr std::array<std::string_view, 1> kLocators{"polynomial"};
-    constexpr std::array<std::string_view, 2> kPlannedLocators{"interpolation", "subdivision"};
+    constexpr std::array<std::string_view, 3> kLocators{"polynomial", "interpolation", "subdivision"};
     constexpr std::array<std::string_view, 1> kOrientations{"quaternion"};
     table.check_keys(kKeys);
     MethodOptions method;
@@ -129,7 +128,8 @@ class SceneReader {
     method.order = static_cast<int>(order);
     method.max_steps = table.whole_number("max_steps", 1, method.max_steps);
     table.choice("orientation", kOrientations, 0);
-    table.choice("locate", kLocators, 0, kPlannedLocators);
+    method.locate = std::array{Locator::polynomial, Locator::interpolation,
+                               Locator::subdivision}[table.choice("locate", kLocators, 0)];
     return method;
   }
 

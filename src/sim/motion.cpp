@@ -72,7 +72,7 @@ ContactResult Motion::first_contact_until(const Pair& pair, double to) const {
   const World::Body& body = world_.bodies[static_cast<std::size_t>(pair.body)];
   const World::Obstacle& obstacle = world_.obstacles[static_cast<std::size_t>(pair.obstacle)];
   const PointPath path(segment_, body.offset);
-  return first_contact(obstacle.shape, {path, body.radius, pair.known_at, to}, pair.memory);
+  return first_contact(obstacle.shape, {path, body.radius, pair.known_at, to, world_.locate}, pair.memory);
 }
 
 void Motion::know_until(Pair& pair, double t) const {

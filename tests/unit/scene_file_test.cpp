@@ -29,7 +29,7 @@ name = "rk4"
 steps = ["10 ms", 0.02, "v0/100"]
 max_steps = 50
 orientation = "quaternion"
-locate = "polynomial"
+locate = "subdivision"
 [[body]]
 name = "big-ball"
 shape = "sphere"
@@ -80,6 +80,7 @@ mass = "10 - t"
   ASSERT_EQ(scene.method.steps.size(), 3u);
   EXPECT_EQ(scene.method.steps[2].text(), "v0/100");
   EXPECT_EQ(scene.method.max_steps, 50);
+  EXPECT_EQ(scene.method.locate, Locator::subdivision);
   const BodyDefinition& body = scene.bodies.at(0);
   EXPECT_EQ(body.name, "big-ball");
   EXPECT_EQ(number(std::get<BallShape>(body.shape).radius), 0.2);

@@ -6,6 +6,7 @@
 #include <variant>
 #include <vector>
 
+#include "trajet/collide/detect/contact.hpp"
 #include "trajet/error.hpp"
 #include "trajet/law/expression.hpp"
 
@@ -28,13 +29,6 @@ struct TimeOptions {
   std::optional<Expression> sample;  ///< s; default: (end - start) / 200
 };
 
-/// How the times of impacts and events are found.
-enum class Locator {
-  polynomial,     ///< every root of the gap on the Segment, by enclosure
-  interpolation,  ///< the course's 3.1: a sign change between step ends, then the mean velocity
-  subdivision,    ///< the course's 3.2: a sign change between step ends, then repeated subdivision
-};
-
 struct MethodOptions {
   std::string name = "taylor";
   std::optional<Expression> rtol;  ///< default 1e-12
@@ -43,7 +37,7 @@ struct MethodOptions {
   std::vector<Expression> steps;   ///< s; unequal steps of a fixed-step method, one after the other
   int order = 0;                   ///< series methods; 0: the method chooses
   long max_steps = 1'000'000;
-  Locator locate = Locator::polynomial;
+  Locator locate = Locator::polynomial;  ///< how the times of impacts are found
   SourceLocation where{};          ///< of the name, or of the table
 };
 

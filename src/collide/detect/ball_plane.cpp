@@ -1,4 +1,5 @@
 #include "contact_report.hpp"
+#include "step_end_search.hpp"
 #include "trajet/collide/detect/table.hpp"
 #include "trajet/event/linear_function.hpp"
 #include "trajet/geom/distance.hpp"
@@ -12,7 +13,7 @@ ContactResult first_contact_with(const Plane& plane, const MovingBall& ball, con
   const PolynomialFunction gap = height.between(begin, end, detail::handled_tolerance(memory, ball));
   constexpr bool kIsSolid = true;
   const auto contact =
-      detail::ContactSearch(gap, kIsSolid, memory, detail::is_handled(memory, ball), [](double) { return true; }).run();
+      detail::search_gap(gap, ball, kIsSolid, memory, detail::is_handled(memory, ball), [](double) { return true; });
   return detail::report(gap, contact, ball, kIsSolid, [&](const Vector3& position) {
     return detail::SurfacePoint{closest_point(plane, position), plane.normal};
   });

@@ -83,7 +83,7 @@ ContactResult point_contact(const ThinShape& shape, const MovingBall& ball, cons
   ContactMemory plane_memory = memory;
   if (memory.is_in_plane) plane_memory.side = 0;
   const auto contact =
-      detail::ContactSearch(gap, kIsSolid, plane_memory, detail::is_handled(memory, ball), is_within).run();
+      detail::search_gap(gap, ball, kIsSolid, plane_memory, detail::is_handled(memory, ball), is_within);
   if (contact.stays_at_zero) return contact_in_plane(shape, ball, memory);
   return detail::report(gap, contact, ball, kIsSolid, [&](const Vector3& position) {
     return detail::SurfacePoint{closest_point(shape, position), shape.normal};

@@ -64,7 +64,7 @@ ContactResult report(const F& gap, const GapContact& contact, const MovingBall& 
   result.status = contact.status;
   result.memory.side = contact.side_after;
   if (contact.status == ContactStatus::separated) {
-    if (contact.stays_at_zero) {
+    if (contact.stays_at_zero || contact.stays_in_contact) {
       result.memory.contact_time = ball.to;
       result.memory.tolerance = gap.at(gap.end()).tolerance;
     }

@@ -3,6 +3,7 @@
 #include <type_traits>
 
 #include "contact_report.hpp"
+#include "step_end_search.hpp"
 #include "trajet/event/composed_function.hpp"
 #include "trajet/geom/distance.hpp"
 
@@ -17,7 +18,7 @@ ContactResult solid_contact(const G& gap_at, const MovingBall& ball, const Conta
   const ComposedFunction gap(ball.path, at_time, begin, end, handled_tolerance(memory, ball));
   constexpr bool kIsSolid = true;
   const auto contact =
-      ContactSearch(gap, kIsSolid, memory, is_handled(memory, ball), [](double) { return true; }).run();
+      search_gap(gap, ball, kIsSolid, memory, is_handled(memory, ball), [](double) { return true; });
   return report(gap, contact, ball, kIsSolid, place);
 }
 

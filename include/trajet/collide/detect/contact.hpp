@@ -6,6 +6,13 @@
 
 namespace trajet {
 
+/// How the times of contacts are found.
+enum class Locator {
+  polynomial,     ///< every root of the gap on the Segment, by enclosure
+  interpolation,  ///< the course's 3.1: a sign change between step ends, then the mean velocity
+  subdivision,    ///< the course's 3.2: a sign change between step ends, then repeated subdivision
+};
+
 enum class ContactStatus {
   separated,             ///< no contact
   hit,                   ///< reaches the surface and goes on to its other side

@@ -15,6 +15,7 @@ struct MovingBall {
   double radius;  ///< m, >= 0
   double from;    ///< s; both within the Segment
   double to;      ///< s; less than `from` where the integration runs backward
+  Locator locator = Locator::polynomial;
 };
 
 /// The table of pairs: the first contact of a ball with each shape. A new shape needs a line here: without it,
