@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 #include <type_traits>
 #include <utility>
 
@@ -27,109 +28,46 @@ class RungeKuttaBase {
   using State = Eigen::Matrix<double, Dim, 1>;
   static constexpr int kDimension = Dim;
 
-  double time() const { return step_.t1; }
-  const State& state() const { return step_.q1; }
+  double time() const { return step_.t1(); }
+  const State& state() const { return step_.end(); }
   const StepStatistics& statistics() const { return statistics_; }
 
   /// The last step as polynomials, of the degree of the method's dense output. `error_bound` is the difference to the
   /// companion method plus rounding: for `dopri5` and `rk4` it over-estimates the error of the step, for `euler` it is
   /// its leading term, for `midpoint` a term of the same power of the step.
-  void fill_segment(Segment<Dim>& segment) {
-    evaluate_end_rate();
-    segment.resize(static_cast<int>(step_.q1.size()), kDegree);
-    segment.set_interval(step_.t0, step_.t1);
-    const double per_h = 1.0 / step_.duration();
-    detail::for_each_component<Dim>(
-        step_.q1.size(), [&](Eigen::Index i) __attribute__((always_inline)) {
-          segment.coefficients()(i, 0) = step_.q0[i];
-          fill_powers(segment, i, per_h, std::make_index_sequence<kDegree>{});
-          const double magnitude = std::max(std::abs(step_.q0[i]), std::abs(step_.q1[i]));
-          segment.error_bound()[i] = std::abs(step_.error(i)) + kRounding * magnitude;
-        });
+  TRAJET_FLATTEN void fill_segment(Segment<Dim>& segment) {
+    evaluate_end();
+    step_.fill(segment);
   }
 
  protected:
   using Step = detail::RungeKuttaStep<Method, Dim>;
-  static constexpr int kDegree = Method::kTableau.kDenseDegree;
-  // q1 is rounded twice, and so are the polynomials' values near it.
-  static constexpr double kRounding = 2.0 * std::numeric_limits<double>::epsilon();
 
   explicit RungeKuttaBase(Rate rate) : rate_(std::move(rate)) {}
 
   void begin(double t, const State& q) {
-    step_.t0 = step_.t1 = t;
-    step_.q0 = step_.q1 = step_.q_stage = q;
-    for (State& k : step_.k) k.resize(q.size());
-    end_rate_known_ = false;
+    step_.start(t, q);
+    end_is_evaluated_ = false;
   }
 
-  void evaluate_end_rate() {
-    if (end_rate_known_) return;
-    evaluate(step_.t1, step_.q1, step_.k[Step::kLast]);
-    end_rate_known_ = true;
-  }
-
-  /// Prepares the step from the current state, lets attempt(step) compute it with its first `Computed` stages, and
-  /// keeps it if that returns `ok`.
-  template <std::size_t Computed, class Attempt>
-  TRAJET_INLINE StepStatus advance_by(Attempt&& attempt) {
-    if constexpr (detail::kIsUnrolled<Dim>) {
-      // A local step stays in registers; the kept one is written once, at the end.
-      Step step;
-      step.t0 = step_.t1;
-      detail::copy_state<Dim>(step_.q1, step.q0);
-      if (end_rate_known_) {
-        detail::copy_state<Dim>(step_.k[Step::kLast], step.k[0]);
-      } else {
-        evaluate(step.t0, step.q0, step.k[0]);
-      }
-      const StepStatus status = attempt(step);
-      if (status == StepStatus::ok) keep(step, std::make_index_sequence<Computed>{});
-      return status;
-    } else {
-      rotate();
-      if (!end_rate_known_) evaluate(step_.t0, step_.q0, step_.k[0]);
-      const StepStatus status = attempt(step_);
-      if (status != StepStatus::ok) rotate();
-      return status;
-    }
-  }
-
-  TRAJET_INLINE void evaluate(double t, const State& q, State& dq) {
-    rate_(t, q, dq);
+  /// The rate at the end of the step, unless it is known.
+  TRAJET_INLINE void evaluate_end() {
+    if (end_is_evaluated_) return;
+    step_.evaluate_end(rate_);
+    end_is_evaluated_ = true;
     ++statistics_.law_evaluations;
   }
 
-  Rate rate_;
+  /// Back to the start of the step, whose rate is known.
+  void undo_step() {
+    step_.undo();
+    end_is_evaluated_ = true;
+  }
+
   Step step_;
-  bool end_rate_known_ = false;
+  Rate rate_;
+  bool end_is_evaluated_ = false;
   StepStatistics statistics_;
-
- private:
-  template <std::size_t... J>
-  TRAJET_INLINE void keep(const Step& step, std::index_sequence<J...>) {
-    step_.t0 = step.t0;
-    step_.t1 = step.t1;
-    detail::copy_state<Dim>(step.q0, step_.q0);
-    detail::copy_state<Dim>(step.q1, step_.q1);
-    (detail::copy_state<Dim>(step.k[J], step_.k[J]), ...);
-  }
-
-  /// Makes the end of the step its start, and the other way round.
-  void rotate() {
-    std::swap(step_.t0, step_.t1);
-    step_.q0.swap(step_.q1);
-    step_.k[0].swap(step_.k[Step::kLast]);
-  }
-
-  template <std::size_t... P>
-  void fill_powers(Segment<Dim>& segment, Eigen::Index i, double per_h, std::index_sequence<P...>) const {
-    double scale = 1.0;  // h^(1 - power)
-    ((segment.coefficients()(i, P + 1) =
-          step_.template weighted<typename Step::template DenseWeights<P + 1>>(0.0, scale, i),
-      scale *= per_h),
-     ...);
-  }
 };
 
 /// Any explicit Runge-Kutta method with steps that the user gives. A Stepper.
@@ -138,7 +76,6 @@ class RungeKuttaBase {
 template <class Method, class Rate, int Dim>
 class FixedStepRungeKutta : public RungeKuttaBase<Method, Rate, Dim> {
   using Base = RungeKuttaBase<Method, Rate, Dim>;
-  using Step = typename Base::Step;
 
  public:
   using typename Base::State;
@@ -153,20 +90,23 @@ class FixedStepRungeKutta : public RungeKuttaBase<Method, Rate, Dim> {
 
   TRAJET_FLATTEN StepStatus advance(double t_limit) {
     assert(t_limit != this->time());
-    // The last stage waits until the next step or a Segment asks for it.
-    return this->template advance_by<Step::kStages - 1>([&](Step & step) __attribute__((always_inline)) {
-      step.t1 = grid_.next(step.t0, t_limit);
-      step.compute(this->rate_);
-      this->statistics_.law_evaluations += static_cast<long>(Step::kStages) - 2;
-      // 0 * q is 0, or not a number where q is infinite or not a number.
-      double zero = 0.0;
-      detail::for_each_component<Dim>(
-          step.q1.size(), [&](Eigen::Index i) __attribute__((always_inline)) { zero += 0.0 * step.q1[i]; });
-      if (zero != 0.0) return StepStatus::not_finite;
-      this->end_rate_known_ = false;
-      ++this->statistics_.steps;
-      return StepStatus::ok;
-    });
+    this->step_.begin_next();
+    const double t1 = grid_.next(this->step_.t0(), t_limit);
+    // The rate at the end waits until the next step, or a Segment, asks for it.
+    if (this->end_is_evaluated_) {
+      this->step_.template compute<false, false>(t1, this->rate_);
+    } else {
+      this->step_.template compute<true, false>(t1, this->rate_);
+      ++this->statistics_.law_evaluations;
+    }
+    this->end_is_evaluated_ = false;
+    this->statistics_.law_evaluations += Base::Step::kInnerEvaluations;
+    if (!this->step_.end_is_finite()) {
+      this->undo_step();
+      return StepStatus::not_finite;
+    }
+    ++this->statistics_.steps;
+    return StepStatus::ok;
   }
 
  private:
@@ -181,13 +121,18 @@ class FixedStepRungeKutta : public RungeKuttaBase<Method, Rate, Dim> {
 template <class Method, class Rate, int Dim>
 class AdaptiveRungeKutta : public RungeKuttaBase<Method, Rate, Dim> {
   using Base = RungeKuttaBase<Method, Rate, Dim>;
-  using Step = typename Base::Step;
 
  public:
   using typename Base::State;
 
   AdaptiveRungeKutta(Rate rate, const StepOptions& options)
-      : Base(std::move(rate)), rtol_(options.rtol), atol_(options.atol), first_step_(options.step.value_or(0.0)) {}
+      : Base(std::move(rate)),
+        rtol_(options.rtol),
+        atol_(std::max(options.atol, std::numeric_limits<double>::min())),
+        first_step_(options.step.value_or(0.0)) {
+    if (!(options.rtol >= 0.0 && options.atol >= 0.0 && options.rtol + options.atol > 0.0))
+      throw std::invalid_argument("`rtol` and `atol` must not be negative, and not both zero");
+  }
 
   void start(double t, const State& q) {
     this->begin(t, q);
@@ -197,33 +142,33 @@ class AdaptiveRungeKutta : public RungeKuttaBase<Method, Rate, Dim> {
 
   TRAJET_FLATTEN StepStatus advance(double t_limit) {
     assert(t_limit != this->time());
+    this->evaluate_end();
     if (next_step_ == 0.0) next_step_ = first_step(t_limit);
-    return this->template advance_by<Step::kStages>([&](Step & step) __attribute__((always_inline)) {
-      const double direction = t_limit > step.t0 ? 1.0 : -1.0;
-      const double distance = std::abs(t_limit - step.t0);
-      double h = std::max(next_step_, smallest_step(step.t0));
-      while (true) {
-        const bool lands = h * kStretch >= distance;
-        step.t1 = lands ? t_limit : step.t0 + direction * h;
-        step.compute(this->rate_);
-        this->rate_(step.t1, step.q1, step.k[Step::kLast]);
-        this->statistics_.law_evaluations += static_cast<long>(Step::kStages) - 1;
-        const double error = error_norm(step);
-        if (lands) h = distance;
-        if (error <= 1.0) {
-          const double proposed = h * controller_.accepted(error);
-          next_step_ = lands ? std::max(proposed, next_step_) : proposed;
-          this->end_rate_known_ = true;
-          ++this->statistics_.steps;
-          return StepStatus::ok;
-        }
-        h *= controller_.rejected(error);
-        ++this->statistics_.rejected_steps;
-        if (!(h >= smallest_step(step.t0)))
-          return std::isfinite(error) ? StepStatus::step_too_small : StepStatus::not_finite;
-        next_step_ = h;
+    this->step_.begin_next();
+    const double t0 = this->step_.t0();
+    const double direction = t_limit > t0 ? 1.0 : -1.0;
+    const double distance = std::abs(t_limit - t0);
+    double h = std::max(next_step_, smallest_step(t0));
+    while (true) {
+      const bool lands = h * kStretch >= distance;
+      this->step_.template compute<false, true>(lands ? t_limit : t0 + direction * h, this->rate_);
+      this->statistics_.law_evaluations += Base::Step::kInnerEvaluations + 1;
+      const double error = this->step_.error_norm(atol_, rtol_);
+      if (lands) h = distance;
+      if (error <= 1.0) {
+        const double proposed = h * controller_.accepted(error);
+        next_step_ = lands ? std::max(proposed, next_step_) : proposed;
+        ++this->statistics_.steps;
+        return StepStatus::ok;
       }
-    });
+      h *= controller_.rejected(error);
+      ++this->statistics_.rejected_steps;
+      if (!(h >= smallest_step(t0))) {
+        this->undo_step();
+        return std::isfinite(error) ? StepStatus::step_too_small : StepStatus::not_finite;
+      }
+      next_step_ = h;
+    }
   }
 
  private:
@@ -232,45 +177,17 @@ class AdaptiveRungeKutta : public RungeKuttaBase<Method, Rate, Dim> {
   // A limit this little farther than the step is reached in one: the alternative is a tiny last step.
   static constexpr double kStretch = 1.01;
 
-  /// The largest component of the error over its tolerance; not a number where any is infinite or not a number.
-  TRAJET_INLINE double error_norm(const Step& step) const {
-    double norm = 0.0;
-    double zero = 0.0;
-    detail::for_each_component<Dim>(
-        step.q1.size(), [&](Eigen::Index i) __attribute__((always_inline)) {
-          const double ratio =
-              std::abs(step.error(i)) / tolerance(std::max(std::abs(step.q0[i]), std::abs(step.q1[i])));
-          norm = std::max(norm, ratio);
-          zero += 0.0 * ratio;
-        });
-    return norm + zero;
-  }
-
-  double tolerance(double magnitude) const { return atol_ + rtol_ * magnitude; }
-
   /// A first step (s) that by Euler's rule changes the state by a hundredth, smaller where the rate itself changes
   /// fast.
   [[gnu::noinline]] double first_step(double t_limit) {
-    this->evaluate_end_rate();
-    const double t = this->step_.t1;
-    const State& q = this->step_.q1;
-    const State& rate = this->step_.k[Step::kLast];
-    State& q_euler = this->step_.q_stage;
-    State& rate_euler = this->step_.k[0];
-    double d0 = 0.0;
-    double d1 = 0.0;
-    for (Eigen::Index i = 0; i < q.size(); ++i) {
-      const double scale = tolerance(std::abs(q[i]));
-      d0 = std::max(d0, std::abs(q[i]) / scale);
-      d1 = std::max(d1, std::abs(rate[i]) / scale);
-    }
+    const double t = this->time();
+    const double d0 = this->step_.state_norm(atol_, rtol_);
+    const double d1 = this->step_.rate_norm(atol_, rtol_);
+    if (!std::isfinite(d1)) return smallest_step(t);
     const double h0 = std::min(d0 < 1e-5 || d1 < 1e-5 ? 1e-6 : 0.01 * d0 / d1, std::abs(t_limit - t));
-    const double signed_h0 = t_limit > t ? h0 : -h0;
-    q_euler = q + signed_h0 * rate;
-    this->evaluate(t + signed_h0, q_euler, rate_euler);
-    double d2 = d1;
-    for (Eigen::Index i = 0; i < q.size(); ++i)
-      d2 = std::max(d2, std::abs(rate_euler[i] - rate[i]) / (h0 * tolerance(std::abs(q[i]))));
+    const double change = this->step_.rate_change_norm(t_limit > t ? h0 : -h0, this->rate_, atol_, rtol_);
+    ++this->statistics_.law_evaluations;
+    const double d2 = std::max(d1, change / h0);
     if (!std::isfinite(d2)) return h0;
     const double h1 =
         d2 > 1e-15 ? detail::rough_exp2(detail::rough_log2(0.01 / d2) / kErrorPower) : std::max(1e-6, 1e-3 * h0);
@@ -278,7 +195,7 @@ class AdaptiveRungeKutta : public RungeKuttaBase<Method, Rate, Dim> {
   }
 
   double rtol_;
-  double atol_;
+  double atol_;  // never 0, so that a component that stays at 0 meets it
   double first_step_;
   StepController controller_{kErrorPower};
   double next_step_ = 0.0;  // s; 0: not chosen yet

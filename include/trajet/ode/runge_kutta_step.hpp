@@ -1,49 +1,156 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <array>
+#include <bit>
+#include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <limits>
 #include <utility>
 
 #include "trajet/math/force_inline.hpp"
+#include "trajet/ode/segment.hpp"
+#include "trajet/ode/step_state.hpp"
 #include "trajet/ode/tableau.hpp"
 
 namespace trajet::detail {
 
-/// Up to this dimension the loops over components are unrolled, so that a step lives in registers.
-inline constexpr int kMaxUnrolledDimension = 16;
-
-template <int Dim>
-inline constexpr bool kIsUnrolled = Dim != Eigen::Dynamic&& Dim <= kMaxUnrolledDimension;
-
-/// Calls f(i) for each component.
-template <int Dim, class F>
-TRAJET_INLINE void for_each_component(Eigen::Index dimension, F&& f) {
-  if constexpr (kIsUnrolled<Dim>) {
-    [&]<int... I>(std::integer_sequence<int, I...>) __attribute__((always_inline)) { (f(Eigen::Index{I}), ...); }
-    (std::make_integer_sequence<int, Dim>{});
-  } else {
-    for (Eigen::Index i = 0; i < dimension; ++i) f(i);
-  }
-}
-
-/// Copies component by component. A packet copy of numbers that were just written one by one would wait for the cache.
-template <int Dim, class State>
-TRAJET_INLINE void copy_state(const State& from, State& to) {
-  for_each_component<Dim>(
-      from.size(), [&](Eigen::Index i) __attribute__((always_inline)) { to[i] = from[i]; });
-}
-
-/// The numbers of one step of the explicit Runge-Kutta method `Method` (a tableau such as Rk4Tableau).
+/// One step of the explicit Runge-Kutta method `Method` (a tableau such as Rk4Tableau): all of its arithmetic, no
+/// decision.
 ///
-/// The law is inlined into every stage, all loops over stages are unrolled, and zero coefficients leave no trace.
+/// The law is inlined into every stage; loops over stages are unrolled; zero coefficients leave no trace. A packed
+/// state goes through the stages in registers.
 template <class Method, int Dim>
-struct RungeKuttaStep {
-  using State = Eigen::Matrix<double, Dim, 1>;
+class RungeKuttaStep {
   static constexpr auto& kTableau = Method::kTableau;
   static constexpr std::size_t kStages = kTableau.kStages;
   static constexpr std::size_t kLast = kStages - 1;
   static_assert(kTableau.a[kLast] == kTableau.b && kTableau.c[kLast] == Fraction(1), "the last stage is the end rate");
+
+ public:
+  using State = Eigen::Matrix<double, Dim, 1>;
+  /// Evaluations of the law by compute(), without the rate at the end.
+  static constexpr long kInnerEvaluations = static_cast<long>(kStages) - 2;
+
+  double t0() const { return t0_; }
+  double t1() const { return t1_; }
+  /// The state at t1.
+  const State& end() const { return end_; }
+
+  /// A step of no length at (t, q).
+  void start(double t, const State& q) {
+    t0_ = t1_ = t;
+    end_ = q;
+    q1_.assign(q);
+    if constexpr (!kIsPacked<Dim>) {  // the only allocations, the first time
+      q_stage_ = q;
+      q0_.assign(q);
+      for (Vector& k : k_) k.assign(q);
+    }
+  }
+
+  /// The last stage: the rate at the end.
+  template <class Rate>
+  TRAJET_INLINE void evaluate_end(Rate& rate) {
+    evaluate(rate, t1_, end_, k_[kLast]);
+  }
+
+  /// Begins the next step where this one ended.
+  TRAJET_INLINE void begin_next() {
+    t0_ = t1_;
+    q0_ = q1_;
+    k_[0] = k_[kLast];
+  }
+
+  /// Back to the state and the rate at t0.
+  void undo() {
+    t1_ = t0_;
+    q1_ = q0_;
+    k_[kLast] = k_[0];
+    for_each_block([&](Eigen::Index b) { Vector::write(q1_[b], end_.data(), b); });
+  }
+
+  /// From the state at t0: the stages and the state at `t1`. The rates at the start and at the end are the ones there
+  /// are, or, `WithStartRate` and `WithEndRate`, evaluated.
+  template <bool WithStartRate, bool WithEndRate, class Rate>
+  TRAJET_INLINE void compute(double t1, Rate& rate) {
+    t1_ = t1;
+    if constexpr (kIsPacked<Dim>) {
+      State q, newest;  // not members: nothing need be stored
+      compute_stages<WithStartRate, WithEndRate>(rate, q, newest);
+    } else {
+      compute_stages<WithStartRate, WithEndRate>(rate, q_stage_, q_stage_);
+    }
+  }
+
+  TRAJET_INLINE bool end_is_finite() const {
+    return std::isfinite(
+        largest_component([&](Eigen::Index b, Block & x) __attribute__((always_inline)) { x = q1_[b]; }));
+  }
+
+  /// The largest component of the error estimate over its tolerance atol + rtol |q|, |q| the larger one of both ends;
+  /// NaN if any is. `atol` > 0.
+  TRAJET_INLINE double error_norm(double atol, double rtol) const {
+    return largest_component([&](Eigen::Index b, Block & x) __attribute__((always_inline)) {
+      Block start = q0_[b], end = q1_[b], error{};
+      Vector::take_magnitude(start);
+      Vector::take_magnitude(end);
+      add_weighted<ErrorWeights, kStages>(t1_ - t0_, b, error);
+      x = error / (atol + rtol * (start > end ? start : end));
+    });
+  }
+
+  /// The largest component at the end over the tolerance there: of the state, of the rate after evaluate_end(), and of
+  /// the change of the rate in a step `h` of Euler's method, which spoils the first stage. `atol` > 0.
+  double state_norm(double atol, double rtol) const {
+    return end_norm(atol, rtol, [&](Eigen::Index b, Block& x) { x = q1_[b]; });
+  }
+  double rate_norm(double atol, double rtol) const {
+    return end_norm(atol, rtol, [&](Eigen::Index b, Block& x) { x = k_[kLast][b]; });
+  }
+  template <class Rate>
+  double rate_change_norm(double h, Rate& rate, double atol, double rtol) {
+    for_each_block([&](Eigen::Index b) {
+      const Block q = q1_[b] + h * k_[kLast][b];
+      Vector::write(q, q_stage_.data(), b);
+    });
+    evaluate(rate, t1_ + h, q_stage_, k_[0]);
+    return end_norm(atol, rtol, [&](Eigen::Index b, Block& x) { x = k_[0][b] - k_[kLast][b]; });
+  }
+
+  /// The step as polynomials, with the error estimate and rounding as bound, after evaluate_end().
+  TRAJET_INLINE void fill(Segment<Dim>& segment) const {
+    constexpr int kDegree = kTableau.kDenseDegree;
+    segment.resize(static_cast<int>(end_.size()), kDegree);
+    segment.set_interval(t0_, t1_);
+    const double h = t1_ - t0_;
+    const double per_h = 1.0 / h;
+    for_each_block([&](Eigen::Index b) __attribute__((always_inline)) {
+      double* coefficients = segment.coefficients().data();
+      Vector::write(q0_[b], coefficients, b);
+      double scale = 1.0;  // h^(1 - power)
+      [&]<int... P>(std::integer_sequence<int, P...>) __attribute__((always_inline)) {
+        ((write_power<P>(scale, b, coefficients += end_.size()), scale *= per_h), ...);
+      }
+      (std::make_integer_sequence<int, kDegree>());
+      Block start = q0_[b], end = q1_[b], bound{};
+      Vector::take_magnitude(start);
+      Vector::take_magnitude(end);
+      add_weighted<ErrorWeights, kStages>(h, b, bound);
+      Vector::take_magnitude(bound);
+      bound += kRounding * (start + end);
+      Vector::write(bound, segment.error_bound().data(), b);
+    });
+  }
+
+ private:
+  using Vector = StepState<Dim>;
+  using Block = typename Vector::Block;
+
+  // The state is rounded twice in a step, and so are the values of the polynomials near it.
+  static constexpr double kRounding = std::numeric_limits<double>::epsilon();
 
   template <std::size_t Stage>
   struct StageWeights {
@@ -52,64 +159,133 @@ struct RungeKuttaStep {
   struct ErrorWeights {
     static constexpr double value(std::size_t j) { return kTableau.b[j].value() - kTableau.companion[j].value(); }
   };
-  template <std::size_t Power>
+  template <std::size_t Column>
   struct DenseWeights {
-    static constexpr double value(std::size_t j) { return kTableau.dense[j][Power - 1].value(); }
+    static constexpr double value(std::size_t j) { return kTableau.dense[j][Column].value(); }
   };
 
-  double t0 = 0.0;
-  double t1 = 0.0;
-  State q0;
-  State q1;
-  std::array<State, kStages> k;
-  State q_stage;
+  template <class F>
+  TRAJET_INLINE void for_each_block(F&& f) const {
+    for (Eigen::Index b = 0; b < q0_.blocks(); ++b) f(b);
+  }
 
-  double duration() const { return t1 - t0; }
+  // Blocks go by reference: how one is passed by value depends on the instruction set.
 
-  /// From t0, t1, q0 and the first stage: the other stages but the last, and q1.
+  /// The largest magnitude of all components of x, where f(b, x) sets a block of it.
+  template <class F>
+  TRAJET_INLINE double largest_component(F&& f) const {
+    std::int64_t largest = 0;
+    for_each_block([&](Eigen::Index b) __attribute__((always_inline)) {
+      Block x;
+      f(b, x);
+      largest = std::max(largest, Vector::largest_magnitude_bits(x));
+    });
+    return std::bit_cast<double>(largest);
+  }
+
+  template <class F>
+  double end_norm(double atol, double rtol, F&& f) const {
+    return largest_component([&](Eigen::Index b, Block& x) {
+      Block end = q1_[b];
+      Vector::take_magnitude(end);
+      f(b, x);
+      x /= atol + rtol * end;
+    });
+  }
+
+  template <int Column>
+  TRAJET_INLINE void write_power(double scale, Eigen::Index b, double* coefficients) const {
+    Block sum{};
+    add_weighted<DenseWeights<Column>, kStages>(scale, b, sum);
+    Vector::write(sum, coefficients, b);
+  }
+
   template <class Rate>
-  TRAJET_INLINE void compute(Rate& rate) {
+  TRAJET_INLINE static void evaluate(Rate& rate, double t, const State& q, Vector& k) {
+    if constexpr (kIsPacked<Dim>) {
+      State components;
+      rate(t, q, components);
+      k.assign(components);
+    } else {
+      rate(t, q, k.components());
+    }
+  }
+
+  /// The same, which leaves a packed rate also in `newest`, component by component.
+  template <class Rate>
+  TRAJET_INLINE static void evaluate(Rate& rate, double t, const State& q, Vector& k, State& newest) {
+    if constexpr (kIsPacked<Dim>) {
+      rate(t, q, newest);
+      k.assign(newest);
+    } else {
+      rate(t, q, k.components());
+    }
+  }
+
+  template <bool WithStartRate, bool WithEndRate, class Rate>
+  TRAJET_INLINE void compute_stages(Rate& rate, State& q, State& newest) {
+    if constexpr (WithStartRate) {
+      evaluate(rate, t0_, end_, k_[0], newest);
+    } else if constexpr (kIsPacked<Dim>) {
+      unrolled<Dim>([&](Eigen::Index i) __attribute__((always_inline)) { newest[i] = k_[0][0][i]; });
+    }
     [&]<std::size_t... S>(std::index_sequence<S...>) __attribute__((always_inline)) {
-      (compute_stage<S + 1>(rate), ...);
+      (compute_stage<S + 1>(rate, q, newest), ...);
     }
-    (std::make_index_sequence<kStages - 2>{});
-    const double h = duration();
-    for_each_component<Dim>(
-        q0.size(), [&](Eigen::Index i) __attribute__((always_inline)) {
-          // The newest stage comes last and alone: all the rest is summed while it is computed.
-          const double rest = q0[i] + weighted<StageWeights<kLast>, 0, kLast - 1>(0.0, h, i);
-          q1[i] = weighted<StageWeights<kLast>, kLast - 1, kLast>(rest, h, i);
-        });
-  }
-
-  /// sum + scale * sum_j weight_j k_j[i] over From <= j < To.
-  template <class Weights, std::size_t From = 0, std::size_t To = kStages>
-  TRAJET_INLINE double weighted(double sum, double scale, Eigen::Index i) const {
-    [&]<std::size_t... J>(std::index_sequence<J...>) __attribute__((always_inline)) {
-      (add<Weights::value(From + J) != 0.0>(sum, scale * Weights::value(From + J), k[From + J], i), ...);
-    }
-    (std::make_index_sequence<To - From>{});
-    return sum;
-  }
-
-  /// Estimated error of component `i` of q1, with its sign.
-  TRAJET_INLINE double error(Eigen::Index i) const { return weighted<ErrorWeights>(0.0, duration(), i); }
-
- private:
-  template <bool kNonZero>
-  TRAJET_INLINE static void add(double& sum, double weight, const State& stage, Eigen::Index i) {
-    if constexpr (kNonZero) sum += weight * stage[i];
+    (std::make_index_sequence<kStages - 2>());
+    combine<kLast>(q, newest);
+    q1_.assign(q);
+    for_each_block([&](Eigen::Index b) __attribute__((always_inline)) { Vector::write(q1_[b], end_.data(), b); });
+    if constexpr (WithEndRate) evaluate(rate, t1_, q, k_[kLast], newest);
   }
 
   template <std::size_t S, class Rate>
-  TRAJET_INLINE void compute_stage(Rate& rate) {
-    const double h = duration();
-    for_each_component<Dim>(
-        q0.size(), [&](Eigen::Index i)
-                       __attribute__((always_inline)) { q_stage[i] = weighted<StageWeights<S>, 0, S>(q0[i], h, i); });
+  TRAJET_INLINE void compute_stage(Rate& rate, State& q, State& newest) {
+    combine<S>(q, newest);
     constexpr double c = kTableau.c[S].value();
-    rate(t0 + c * h, q_stage, k[S]);
+    evaluate(rate, t0_ + c * (t1_ - t0_), q, k_[S], newest);
   }
+
+  /// q = q0 + h sum_{j<S} a_Sj k_j. The newest stage comes last and alone: all the rest is summed while it is computed.
+  template <std::size_t S>
+  TRAJET_INLINE void combine(State& q, const State& newest) const {
+    const double h = t1_ - t0_;
+    const double weight = h * kTableau.a[S][S - 1].value();
+    for_each_block([&](Eigen::Index b) __attribute__((always_inline)) {
+      Block rest = q0_[b];
+      if constexpr (S > 1) {
+        Block sum{};
+        add_weighted<StageWeights<S>, S - 1>(h, b, sum);
+        rest += sum;
+      }
+      if constexpr (kIsPacked<Dim>) {
+        unrolled<Dim>([&](Eigen::Index i) __attribute__((always_inline)) { q[i] = rest[i] + weight * newest[i]; });
+      } else {
+        q[b] = rest + weight * k_[S - 1][b];
+      }
+    });
+  }
+
+  /// sum += scale * sum_{j<Count} weight_j k_j
+  template <class Weights, std::size_t Count>
+  TRAJET_INLINE void add_weighted(double scale, Eigen::Index b, Block& sum) const {
+    [&]<std::size_t... J>(std::index_sequence<J...>) __attribute__((always_inline)) {
+      (add<Weights::value(J) != 0.0>(scale * Weights::value(J), k_[J][b], sum), ...);
+    }
+    (std::make_index_sequence<Count>());
+  }
+  template <bool kNonZero>
+  TRAJET_INLINE static void add(double weight, const Block& stage, Block& sum) {
+    if constexpr (kNonZero) sum += weight * stage;
+  }
+
+  double t0_ = 0.0;
+  double t1_ = 0.0;
+  Vector q0_;
+  Vector q1_;
+  std::array<Vector, kStages> k_;
+  State end_;
+  State q_stage_;  // of states that are not packed
 };
 
 }  // namespace trajet::detail

@@ -40,7 +40,8 @@ struct StepOptions {
 ///   on it exactly: `time() == t_limit`.
 /// - `fill_segment(segment)` writes the last step as a Segment. It costs only where it is called.
 template <class S>
-concept Stepper = requires(S stepper, const S& fixed, double t, const typename S::State& q, Segment<S::kDimension>& segment) {
+concept Stepper =
+    requires(S& stepper, const S& fixed, double t, const typename S::State& q, Segment<S::kDimension>& segment) {
   stepper.start(t, q);
   { stepper.advance(t) } -> std::same_as<StepStatus>;
   stepper.fill_segment(segment);
