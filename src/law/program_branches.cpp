@@ -156,8 +156,6 @@ double ProgramExpansion::duration_until_branch(double duration) {
   const double search = duration * row_direction_;  // on the axis s of the rows
   direction_ = duration < 0.0 ? -1.0 : 1.0;
   has_end_ = false;
-  // A branch chosen by what comes ahead of its zero is the wrong one behind it.
-  if (search < 0.0 && std::ranges::any_of(branches_, &Branch::starts_at_zero)) return 0.0;
   BranchTime first{search, -1, 0.0};
   double first_border = 0.0;
   for (std::size_t i = 0; i < branches_.size(); ++i) {

@@ -254,6 +254,8 @@ TEST(DidYouMean, nearest_name_or_none) {
   EXPECT_EQ(did_you_mean("psoition", known), "; did you mean 'position'?");
   EXPECT_EQ(did_you_mean("temperature", known), "");
   EXPECT_EQ(did_you_mean("q", known), "");
+  const std::string_view short_names[] = {"vx", "vy"};
+  EXPECT_EQ(did_you_mean("yv", short_names), "; did you mean 'vy'?");
 }
 
 }  // namespace

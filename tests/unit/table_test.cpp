@@ -66,6 +66,9 @@ TEST(Table, parabola_slope_at_the_ends_and_straight_line) {
   // y = x^2 on three points: the end slopes of the parabola through them, 2 x
   const Table parabola({1.0, 2.0, 4.0}, {1.0, 4.0, 16.0});
   EXPECT_NEAR(parabola.cell(0).c1, 2.0, 1e-14);
+  // where the parabola would overshoot, at most three times the first secant; where it would turn back, level
+  EXPECT_EQ(Table({0.0, 1.0, 2.0}, {0.0, 1.0, -9.0}).cell(0).c1, 3.0);
+  EXPECT_EQ(Table({0.0, 1.0, 2.0}, {0.0, 1.0, 9.0}).cell(0).c1, 0.0);
   const Table line({1.0, 3.0}, {2.0, 8.0});
   EXPECT_EQ(line(2.0), 5.0);
 }
