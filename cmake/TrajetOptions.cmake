@@ -7,8 +7,21 @@ if(PROJECT_IS_TOP_LEVEL AND NOT CMAKE_BUILD_TYPE)
   set(CMAKE_BUILD_TYPE Release)
 endif()
 
-# What all our targets compile with; not passed on to users of the library.
 set(gcc_12 $<AND:$<CXX_COMPILER_ID:GNU>,$<VERSION_LESS:$<CXX_COMPILER_VERSION>,13>>)
+
+# Tuned for this machine. Passed on to users of the library: Eigen aligns and allocates by the widest vector of the
+# instruction set, on which both must agree.
+set(native_options "")
+if(TRAJET_NATIVE)
+  list(APPEND native_options -march=native)
+  if(CMAKE_SYSTEM_PROCESSOR MATCHES "^(x86_64|AMD64)$")
+    # GCC before 12.3 copies constants {c, c, 0, 0, ...} as {c, c, c, c, ...} with AVX-512 (its bug 108599): the series
+    # of 1 + t lost its zeros. It takes that path only where it moves integers to vector registers directly.
+    list(APPEND native_options $<${gcc_12}:-mtune-ctrl=^inter_unit_moves_to_vec>)
+  endif()
+endif()
+
+# What all our targets compile with; not passed on.
 add_library(trajet_options INTERFACE)
 target_compile_options(trajet_options INTERFACE
   -Wall -Wextra -Wconversion -Wshadow
@@ -36,10 +49,7 @@ function(trajet_add_library name)
   add_library(trajet::${arg_EXPORT_AS} ALIAS ${name})
   set_target_properties(${name} PROPERTIES EXPORT_NAME ${arg_EXPORT_AS} POSITION_INDEPENDENT_CODE ON)
   target_compile_features(${name} PUBLIC cxx_std_20)
-  # Eigen aligns and allocates by the widest vector of the instruction set: library and user must agree on it.
-  if(TRAJET_NATIVE)
-    target_compile_options(${name} PUBLIC -march=native)
-  endif()
+  target_compile_options(${name} PUBLIC ${native_options})
   target_include_directories(${name} PUBLIC
     $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include>
     $<BUILD_INTERFACE:${PROJECT_BINARY_DIR}/include>
