@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "trajet/event/path.hpp"
+#include "trajet/law/evaluate.hpp"
 
 namespace trajet {
 
@@ -21,7 +22,14 @@ Motion::Motion(const World& world, int group) : world_(world), group_(group) {
 void Motion::use_law() {
   if (stepper_) finished_steppers_ = statistics();
   Program law = group().law;
-  for (const RestingContact& contact : resting_) law = hold(law, contact);
+  for (const int body : group().bodies) {
+    const int offset = world_.bodies[static_cast<std::size_t>(body)].offset;
+    const Support support = this->support(offset);
+    for (const Vector3& direction : support.blocked) law = hold(law, offset, direction);
+    auto release = support.release.begin();
+    for (RestingContact& contact : resting_)
+      if (contact.offset == offset) contact.release = *release++;
+  }
   stepper_.reset();
   system_ = std::make_unique<ProgramSystem>(law);
   stepper_ = world_.method->make(*system_, world_.step_options);
@@ -132,7 +140,7 @@ void Motion::begin_rest(int index, const Vector3& normal) {
   Pair& pair = pairs_[static_cast<std::size_t>(index)];
   const World::Body& body = world_.bodies[static_cast<std::size_t>(pair.body)];
   pair.resting = true;
-  resting_.push_back({index, body.offset, normal});
+  resting_.push_back({index, body.offset, normal, normal});
   use_law();
 }
 
@@ -150,6 +158,19 @@ Eigen::VectorXd Motion::rate(double t, const Eigen::VectorXd& q) const {
   Eigen::VectorXd dq(q.size());
   system_->rate(t, q.data(), dq.data());
   return dq;
+}
+
+Support Motion::support(int offset) const {
+  std::vector<Vector3> normals;
+  for (const RestingContact& contact : resting_)
+    if (contact.offset == offset) normals.push_back(contact.normal);
+  return trajet::support(normals);
+}
+
+Vector3 Motion::free_acceleration(int offset, double t, const Eigen::VectorXd& q) const {
+  Eigen::VectorXd dq(q.size());
+  Evaluator<double>(group().law)(t, q.data(), dq.data());
+  return dq.segment<3>(offset + 3);
 }
 
 StepStatistics Motion::statistics() const {

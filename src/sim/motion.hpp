@@ -73,6 +73,10 @@ class Motion {
   Eigen::VectorXd state(double t) const;
   /// The law at a state: dq/dt, contact forces included.
   Eigen::VectorXd rate(double t, const Eigen::VectorXd& q) const;
+  /// What the resting contacts of the body at `offset` in the state do together.
+  Support support(int offset) const;
+  /// The acceleration that the law alone gives the body at `offset`, without contacts.
+  Vector3 free_acceleration(int offset, double t, const Eigen::VectorXd& q) const;
   bool finished() const { return segment_.t1() == world_.end; }
   StepStatistics statistics() const;
 

@@ -1,5 +1,6 @@
 #include "resting_contact.hpp"
 
+#include <Eigen/QR>
 #include <array>
 #include <variant>
 
@@ -114,15 +115,31 @@ class FlatNormal {
 
 bool is_flat_at(const Shape& shape, const Vector3& normal) { return std::visit(FlatNormal(normal), shape); }
 
-Program hold(const Program& law, const RestingContact& contact) {
+Support support(const std::vector<Vector3>& normals) {
+  Support support;
+  if (normals.empty()) return support;
+  Eigen::Matrix3Xd n(3, static_cast<Eigen::Index>(normals.size()));
+  for (std::size_t i = 0; i < normals.size(); ++i) {
+    n.col(static_cast<Eigen::Index>(i)) = normals[i];
+    Vector3 rest = normals[i];
+    for (const Vector3& direction : support.blocked) rest -= rest.dot(direction) * direction;
+    constexpr double kDependent = 1e-9;  // far above rounding: two faces of one plane
+    if (rest.norm() > kDependent) support.blocked.push_back(rest.normalized());
+  }
+  const Eigen::MatrixXd inverse = n.completeOrthogonalDecomposition().pseudoInverse();
+  for (Eigen::Index i = 0; i < inverse.rows(); ++i) support.release.push_back(inverse.row(i).transpose());
+  return support;
+}
+
+Program hold(const Program& law, int offset, const Vector3& direction) {
   Program held = law;
   ProgramWriter writer(held);
-  for (const int first : {contact.offset, contact.offset + kVelocity}) {
+  for (const int first : {offset, offset + kVelocity}) {
     const std::array<int, 3> vector = output_vector(held, first);
-    const int along = writer.along(contact.normal, vector);
-    // u - (u . n) n
+    const int along = writer.along(direction, vector);
+    // u - (u . d) d
     for (int i = 0; i < 3; ++i) {
-      const int part = writer.write(Opcode::multiply_constant, along, 0, contact.normal[i]);
+      const int part = writer.write(Opcode::multiply_constant, along, 0, direction[i]);
       const auto k = static_cast<std::size_t>(i);
       held.outputs[static_cast<std::size_t>(first + i)] = writer.write(Opcode::subtract, vector[k], part);
     }
@@ -132,7 +149,7 @@ Program hold(const Program& law, const RestingContact& contact) {
 
 std::vector<Program> release_conditions(const Program& law, const Shape& shape, const RestingContact& contact) {
   Program pull = law;
-  pull.outputs = {ProgramWriter(pull).along(contact.normal, output_vector(law, contact.offset + kVelocity))};
+  pull.outputs = {ProgramWriter(pull).along(contact.release, output_vector(law, contact.offset + kVelocity))};
   std::vector<Program> conditions = {pull};
 
   const int position = 1 + contact.offset;  // behind t

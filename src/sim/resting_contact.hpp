@@ -13,17 +13,27 @@ struct RestingContact {
   int pair = 0;    ///< of the Motion
   int offset = 0;  ///< of the body in the group's state
   Vector3 normal;  ///< unit, away from the obstacle
+  Vector3 release = normal;  ///< the contact would have to pull where release . a > 0, a the acceleration without contacts
 };
+
+/// What the contacts of one body on several obstacles with the normals n_i do together.
+struct Support {
+  std::vector<Vector3> blocked;  ///< orthonormal: the directions in which the body does not move
+  /// One for each contact: with N = [n_1 n_2 …], forces N lambda per mass hold the body for lambda = -N^+ a, a its
+  /// acceleration without contacts, N^+ the pseudo-inverse. These are the rows of N^+.
+  std::vector<Vector3> release;
+};
+Support support(const std::vector<Vector3>& normals);
 
 /// Whether a body can rest on a shape where its normal is `normal`: on a flat face; not on a curved surface, an edge, a corner.
 bool is_flat_at(const Shape& shape, const Vector3& normal);
 
-/// The law of a group with one body held on a flat obstacle: of the rates of its position and its velocity, the parts along
-/// the normal are taken out.
-Program hold(const Program& law, const RestingContact& contact);
+/// The law of a group with the body at `offset` held back in a direction (unit): of the rates of its position and its
+/// velocity, the parts along it are taken out.
+Program hold(const Program& law, int offset, const Vector3& direction);
 
-/// Programs of t and the group's state that become positive when the contact ends: the acceleration away from the obstacle
-/// that `law` gives the body (m/s^2), and how far the body is past each edge of the face.
+/// Programs of t and the group's state that become positive when the contact ends: release . a with the acceleration a that
+/// `law` gives the body (m/s^2), and how far the body is past each edge of the face.
 std::vector<Program> release_conditions(const Program& law, const Shape& shape, const RestingContact& contact);
 
 }  // namespace trajet

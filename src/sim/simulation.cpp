@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "trajet/collide/respond/restitution.hpp"
-#include "trajet/geom/distance.hpp"
 #include "trajet/law/evaluate.hpp"
 
 namespace trajet {
@@ -169,14 +167,15 @@ void Simulation::record(const Impact& impact) {
     const double apart = std::abs(impact.time - last.time);
     impacts_at_once_ = apart == 0.0 ? impacts_at_once_ + 1 : 0;
     const bool is_tie = impact.with != last.with && apart <= impact.time_error_bound + last.time_error_bound;
-    if (is_tie && impact.kind != ImpactKind::rest && last.kind != ImpactKind::rest) warn_of_tie(last, impact.body, impact.with);
+    if (is_tie && impact.kind == ImpactKind::hit && last.kind == ImpactKind::hit) warn_of_tie(last, impact.body, impact.with);
   }
   result_.impacts.push_back(impact);
 }
 
 void Simulation::warn_of_tie(const Impact& impact, const std::string& body, const std::string& with) {
-  result_.warnings.push_back("the impacts of '" + impact.body + "' with '" + impact.with + "' and of '" + body + "' with '" +
-                             with + "' are closer in time than their error bounds: which is first is decided by rounding");
+  const std::string text = "impacts of '" + impact.body + "' with '" + impact.with + "' and of '" + body + "' with '" + with +
+                           "' are closer in time than their error bounds: which is first is decided by rounding";
+  if (std::ranges::find(result_.warnings, text) == result_.warnings.end()) result_.warnings.push_back(text);
 }
 
 void Simulation::warn_of_hidden_ties(const Motion& moving, const Motion::Pair& handled, const Impact& impact) {
@@ -225,91 +224,6 @@ void Simulation::handle_contact(int index, const Incident& incident) {
     moving.pass_contact(incident.index);
     enqueue(index);
   }
-}
-
-void Simulation::bounce(int index, const Incident& incident, Impact impact) {
-  Motion& moving = motion(index);
-  const Motion::Pair pair = moving.pair(incident.index);
-  const World::Body& body = body_of(pair);
-  const World::Obstacle& obstacle = obstacle_of(pair);
-  const double t = incident.time;
-  write_sample(t);
-
-  Eigen::VectorXd q = moving.state(t);
-  auto velocity = q.segment<3>(body.offset + 3);
-  // the velocity of the centre is dr/dt, which a position_rate may set apart from v
-  const Vector3 approach = moving.rate(t, q).segment<3>(body.offset);
-  velocity += trajet::rebound(approach, impact.normal, obstacle.restitution).impulse_per_mass;
-  impact.velocity_after = velocity;
-  impact.impulse = mass(body, t, q) * (impact.velocity_after - impact.velocity_before);
-  record(impact);
-
-  const RestingTime rest = resting_time(moving, pair, impact, q);
-  if (rest.rests) {
-    if (!is_flat_at(obstacle.shape, impact.normal)) {
-      fail(t, "body '" + body.name + "' comes to rest on the curved or sharp part of obstacle '" + obstacle.name +
-                  "', where trajet cannot follow it");
-      return;
-    }
-    velocity -= velocity.dot(impact.normal) * impact.normal;
-    impact.kind = ImpactKind::rest;
-    impact.time = t + rest.duration;
-    impact.velocity_before = impact.velocity_after;
-    impact.velocity_after = velocity;
-    impact.impulse = Vector3::Zero();
-    record(impact);
-    moving.begin_rest(incident.index, impact.normal);
-  }
-  moving.restart(t, q);
-  moving.rebound(incident.index, trajet::rebounded(pair.contact.memory));
-  write_sample(t);
-  advance(index);
-}
-
-Simulation::RestingTime Simulation::resting_time(const Motion& moving, const Motion::Pair& pair, const Impact& impact,
-                                                 const Eigen::VectorXd& q) const {
-  // A rebound this much higher than the gap can be told from contact is still a flight.
-  constexpr double kLowestFlight = 1e5;
-  const World::Body& body = body_of(pair);
-  const double e = obstacle_of(pair).restitution;
-  const Eigen::VectorXd rate = moving.rate(impact.time, q);
-  const double speed = impact.normal.dot(rate.segment<3>(body.offset));
-  const double pull = -impact.normal.dot(rate.segment<3>(body.offset + 3));
-  if (pull <= 0.0 || e >= 1.0) return {};
-  if (speed * speed > 2.0 * pull * kLowestFlight * pair.contact.memory.tolerance) return {};
-  // all flights to come: 2 u/g (1 + e + e^2 + ...)
-  return {true, 2.0 * speed / (pull * (1.0 - e))};
-}
-
-void Simulation::handle_leave(int index, const Incident& incident) {
-  Motion& moving = motion(index);
-  sample_until(incident.time);
-  const RestingContact contact = moving.resting()[static_cast<std::size_t>(incident.index)];
-  const Motion::Pair pair = moving.pair(contact.pair);
-  const Eigen::VectorXd q = moving.state(incident.time);
-  Impact impact;
-  impact.time = incident.time;
-  impact.body = body_of(pair).name;
-  impact.with = obstacle_of(pair).name;
-  impact.kind = ImpactKind::leave;
-  impact.normal = contact.normal;
-  impact.position = q.segment<3>(contact.offset);
-  impact.point = impact.position - body_of(pair).radius * contact.normal;
-  impact.velocity_before = impact.velocity_after = q.segment<3>(contact.offset + 3);
-  impact.impulse = Vector3::Zero();
-  impact.time_error_bound = 0.0;
-  write_sample(incident.time);
-  write_sample(incident.time);
-  record(impact);
-  moving.end_rest(incident.index);
-  moving.restart(incident.time, q);
-  ContactMemory memory = pair.memory;
-  memory.contact_time = incident.time;
-  // what the body has drifted off the surface while it rested is still contact
-  const Vector3 surface = std::visit([&](const auto& shape) { return closest_point(shape, impact.position); }, obstacle_of(pair).shape);
-  memory.tolerance = std::max(memory.tolerance, 2.0 * (surface - impact.point).norm());
-  moving.rebound(contact.pair, memory);
-  advance(index);
 }
 
 void Simulation::fail(double time, const std::string& reason) {

@@ -36,6 +36,19 @@ class Simulation {
     double duration = 0.0;  ///< s
   };
   RestingTime resting_time(const Motion& motion, const Motion::Pair& pair, const Impact& impact, const Eigen::VectorXd& q) const;
+  /// A contact that has ended, and what is known of its pair after the next restart.
+  struct Released {
+    int pair;
+    ContactMemory memory;
+  };
+  /// After an impact of a resting body that gave it state `q`: ends the rests from or into which it moves now, and takes out
+  /// of its velocity what the others do not let pass.
+  std::vector<Released> release_by_speed(Motion& motion, const World::Body& body, double t, Eigen::VectorXd& q);
+  /// Ends the rests that would have to pull at the body.
+  void release_by_force(Motion& motion, const World::Body& body, double t, const Eigen::VectorXd& q,
+                        std::vector<Released>& released);
+  Released release(Motion& motion, int resting, double t, const Eigen::VectorXd& q);
+  void record_leave(const Motion& motion, const RestingContact& contact, double t, const Eigen::VectorXd& q);
 
   void advance(int motion);
   void record(const Impact& impact);

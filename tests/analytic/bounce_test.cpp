@@ -237,5 +237,97 @@ acceleration = [0, 0, "t - 3"]
   EXPECT_NEAR(test::final_of(result, "ball").position.z(), 1.0 / 6.0, 1e-13);
 }
 
+/// A plane of the scene that bounces, through the origin or another point.
+std::string plane(const std::string& name, const std::string& normal, double restitution,
+                  const std::string& point = "[0, 0, 0]") {
+  return "[[obstacle]]\nname = \"" + name + "\"\nshape = \"plane\"\npoint = " + point + "\nnormal = " + normal +
+         "\non_hit = \"bounce\"\nrestitution = " + test::number(restitution) + "\n";
+}
+
+TEST(Rest, InAGrooveOfTwoPlanesItStaysAtTheBottom) {
+  // Planes that are not orthogonal, wider and narrower; the ball keeps its speed along the groove.
+  for (const double restitution : {0.0, 0.5}) {
+    for (const char* right : {"[-1, 0, 1]", "[-1, 0, 3]", "[-3, 0, 1]"}) {
+      const RunResult result = test::run_text(R"(
+[time]
+end = 12
+[[body]]
+name = "ball"
+position = [0, 0, 1]
+velocity = [0.3, 0.1, 0]
+acceleration = [0, 0, -9.8]
+)" + plane("left", "[1, 0, 1.5]", restitution) +
+                                              plane("right", right, restitution));
+      SCOPED_TRACE(std::string(right) + " " + test::number(restitution));
+      ASSERT_EQ(result.status, RunStatus::finished) << result.failure;
+      const BodyState& ball = test::final_of(result, "ball");
+      // It comes to rest within the last flight's height of each plane, 1e-10 m.
+      EXPECT_LT((ball.position - Vector3(0, 1.2, 0)).norm(), 1e-9);
+      EXPECT_LT((ball.velocity - Vector3(0, 0.1, 0)).norm(), 1e-12);
+      EXPECT_LT(ball.acceleration.norm(), 1e-12);
+    }
+  }
+}
+
+TEST(Rest, ARampThrowsARestingBallUp) {
+  // On the floor at 1 m/s against a ramp of 45 degrees: v+ = v - (1 + e)(v . n) n
+  const RunResult result = test::run_text(R"(
+[time]
+end = 2.05
+[[body]]
+name = "ball"
+velocity = [1, 0, 0]
+acceleration = [0, 0, -9.8]
+)" + plane("floor", "[0, 0, 1]", 0.0) + plane("ramp", "[-1, 0, 1]", 0.9, "[2, 0, 0]"));
+  // A start in contact at rest is pressed down at once.
+  ASSERT_EQ(result.impacts.size(), 4u);
+  EXPECT_EQ(result.impacts[1].kind, ImpactKind::rest);
+  EXPECT_EQ(result.impacts[2].with, "ramp");
+  EXPECT_NEAR(result.impacts[2].time, 2.0, 1e-15);
+  EXPECT_NEAR(result.impacts[2].velocity_after.x(), 0.05, 1e-15);
+  EXPECT_NEAR(result.impacts[2].velocity_after.z(), 0.95, 1e-15);
+  EXPECT_EQ(result.impacts[3].kind, ImpactKind::leave);
+  EXPECT_EQ(result.impacts[3].with, "floor");
+  EXPECT_NEAR(test::final_of(result, "ball").position.z(), 0.95 * 0.05 - 4.9 * 0.05 * 0.05, 1e-14);
+}
+
+TEST(Rest, APushUpARampLiftsItOffTheFloor) {
+  // Held on the floor, pushed to a ramp that it reaches with no speed: the push is stronger than the weight's part
+  // along the ramp, so the ball climbs, and the floor does not hold it back.
+  const RunResult result = test::run_text(R"(
+[time]
+end = 4
+[[body]]
+name = "ball"
+position = [1, 0, 0]
+acceleration = ['where(t < 1, 0, 20)', 0, -9.8]
+)" + plane("floor", "[0, 0, 1]", 0.0) + plane("ramp", "[-1, 0, 1]", 0.0, "[1, 0, 0]"));
+  ASSERT_EQ(result.status, RunStatus::finished) << result.failure;
+  // along (1, 0, 1)/sqrt 2: a = (20 - 9.8)/sqrt 2; x - 1 = a/sqrt 2 (t - 1)^2/2
+  const BodyState& ball = test::final_of(result, "ball");
+  EXPECT_NEAR(ball.position.x(), 1.0 + 5.1 * 4.5, 1e-9);
+  EXPECT_NEAR(ball.position.z(), 5.1 * 4.5, 1e-9);
+}
+
+TEST(Rest, SlidesIntoAWallAndBack) {
+  const RunResult result = test::run_text(R"(
+[time]
+end = 5
+[[body]]
+name = "ball"
+shape = "sphere"
+radius = 0.25
+position = [0.25, 0, 0.25]
+velocity = [1, 0, 0]
+acceleration = [0, 0, -9.8]
+)" + plane("floor", "[0, 0, 1]", 0.0) + plane("wall", "[-1, 0, 0]", 0.5, "[2.25, 0, 0]"));
+  ASSERT_EQ(result.status, RunStatus::finished) << result.failure;
+  EXPECT_TRUE(test::impacts_of(result, ImpactKind::leave).empty());
+  const BodyState& ball = test::final_of(result, "ball");
+  EXPECT_NEAR(ball.position.x(), 2.0 - 0.5 * (5.0 - 1.75), 1e-14);
+  EXPECT_EQ(ball.velocity, Vector3(-0.5, 0, 0));
+  EXPECT_NEAR(ball.position.z(), 0.25, 1e-14);
+}
+
 }  // namespace
 }  // namespace trajet

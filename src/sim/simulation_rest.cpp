@@ -1,0 +1,154 @@
+#include <algorithm>
+#include <cmath>
+#include <variant>
+
+#include "simulation.hpp"
+#include "trajet/collide/respond/restitution.hpp"
+#include "trajet/geom/distance.hpp"
+
+namespace trajet {
+namespace {
+
+/// Whether a body that moves away with `speed` from an obstacle towards which it is accelerated with `pull` is in contact
+/// still. A flight this much higher than the gap that can be told from contact is a flight: u^2 / (2 g) against the gap.
+bool is_below_flight(double speed, double pull, double tolerance) {
+  constexpr double kLowestFlight = 1e5;
+  return speed * speed <= 2.0 * pull * kLowestFlight * tolerance;
+}
+
+}  // namespace
+
+void Simulation::bounce(int index, const Incident& incident, Impact impact) {
+  Motion& moving = motion(index);
+  const Motion::Pair pair = moving.pair(incident.index);
+  const World::Body& body = body_of(pair);
+  const World::Obstacle& obstacle = obstacle_of(pair);
+  const double t = incident.time;
+  write_sample(t);
+
+  Eigen::VectorXd q = moving.state(t);
+  auto velocity = q.segment<3>(body.offset + 3);
+  // the velocity of the centre is dr/dt, which a position_rate may set apart from v
+  const Vector3 approach = moving.rate(t, q).segment<3>(body.offset);
+  velocity += trajet::rebound(approach, impact.normal, obstacle.restitution).impulse_per_mass;
+  impact.velocity_after = velocity;
+  impact.impulse = mass(body, t, q) * (impact.velocity_after - impact.velocity_before);
+  record(impact);
+
+  std::vector<Released> released = release_by_speed(moving, body, t, q);
+  const RestingTime rest = resting_time(moving, pair, impact, q);
+  if (rest.rests) {
+    if (!is_flat_at(obstacle.shape, impact.normal)) {
+      fail(t, "body '" + body.name + "' comes to rest on the curved or sharp part of obstacle '" + obstacle.name +
+                  "', where trajet cannot follow it");
+      return;
+    }
+    moving.begin_rest(incident.index, impact.normal);
+    for (const Vector3& direction : moving.support(body.offset).blocked) velocity -= velocity.dot(direction) * direction;
+    impact.kind = ImpactKind::rest;
+    impact.time = t + rest.duration;
+    impact.velocity_before = impact.velocity_after;
+    impact.velocity_after = velocity;
+    impact.impulse = Vector3::Zero();
+    record(impact);
+    release_by_force(moving, body, t, q, released);
+  }
+  moving.restart(t, q);
+  moving.rebound(incident.index, trajet::rebounded(pair.contact.memory));
+  for (const Released& each : released) moving.rebound(each.pair, each.memory);
+  write_sample(t);
+  advance(index);
+}
+
+Simulation::RestingTime Simulation::resting_time(const Motion& moving, const Motion::Pair& pair, const Impact& impact,
+                                                 const Eigen::VectorXd& q) const {
+  const World::Body& body = body_of(pair);
+  const double e = obstacle_of(pair).restitution;
+  const Eigen::VectorXd rate = moving.rate(impact.time, q);
+  const double speed = std::max(0.0, impact.normal.dot(rate.segment<3>(body.offset)));
+  const double pull = -impact.normal.dot(rate.segment<3>(body.offset + 3));
+  if (pull <= 0.0 || e >= 1.0 || !is_below_flight(speed, pull, pair.contact.memory.tolerance)) return {};
+  // all flights to come: 2 u/g (1 + e + e^2 + ...)
+  return {true, 2.0 * speed / (pull * (1.0 - e))};
+}
+
+std::vector<Simulation::Released> Simulation::release_by_speed(Motion& moving, const World::Body& body, double t,
+                                                               Eigen::VectorXd& q) {
+  std::vector<Released> released;
+  auto velocity = q.segment<3>(body.offset + 3);
+  const double pull = moving.free_acceleration(body.offset, t, q).norm();
+  for (std::size_t i = 0; i < moving.resting().size();) {
+    const RestingContact contact = moving.resting()[i];
+    const double speed = velocity.dot(contact.normal);
+    if (contact.offset != body.offset || is_below_flight(speed, pull, moving.pair(contact.pair).memory.tolerance)) {
+      ++i;
+      continue;
+    }
+    if (speed > 0.0) record_leave(moving, contact, t, q);
+    released.push_back(release(moving, static_cast<int>(i), t, q));
+  }
+  for (const Vector3& direction : moving.support(body.offset).blocked) velocity -= velocity.dot(direction) * direction;
+  return released;
+}
+
+void Simulation::release_by_force(Motion& moving, const World::Body& body, double t, const Eigen::VectorXd& q,
+                                  std::vector<Released>& released) {
+  const Vector3 acceleration = moving.free_acceleration(body.offset, t, q);
+  for (std::size_t i = 0; i < moving.resting().size();) {
+    const RestingContact contact = moving.resting()[i];
+    if (contact.offset != body.offset || contact.release.dot(acceleration) <= 0.0) {
+      ++i;
+      continue;
+    }
+    record_leave(moving, contact, t, q);
+    released.push_back(release(moving, static_cast<int>(i), t, q));
+    i = 0;  // the contacts that are left share the load anew
+  }
+}
+
+Simulation::Released Simulation::release(Motion& moving, int resting, double t, const Eigen::VectorXd& q) {
+  const RestingContact contact = moving.resting()[static_cast<std::size_t>(resting)];
+  const Motion::Pair& pair = moving.pair(contact.pair);
+  ContactMemory memory = pair.memory;
+  memory.contact_time = t;
+  // what the body has drifted off the surface while it rested is still contact
+  const Vector3 position = q.segment<3>(contact.offset);
+  const Vector3 point = position - body_of(pair).radius * contact.normal;
+  const Vector3 surface = std::visit([&](const auto& shape) { return closest_point(shape, position); }, obstacle_of(pair).shape);
+  memory.tolerance = std::max(memory.tolerance, 2.0 * (surface - point).norm());
+  moving.end_rest(resting);
+  return {contact.pair, memory};
+}
+
+void Simulation::record_leave(const Motion& moving, const RestingContact& contact, double t, const Eigen::VectorXd& q) {
+  const Motion::Pair& pair = moving.pair(contact.pair);
+  Impact impact;
+  impact.time = t;
+  impact.body = body_of(pair).name;
+  impact.with = obstacle_of(pair).name;
+  impact.kind = ImpactKind::leave;
+  impact.normal = contact.normal;
+  impact.position = q.segment<3>(contact.offset);
+  impact.point = impact.position - body_of(pair).radius * contact.normal;
+  impact.velocity_before = impact.velocity_after = q.segment<3>(contact.offset + 3);
+  impact.impulse = Vector3::Zero();
+  record(impact);
+}
+
+void Simulation::handle_leave(int index, const Incident& incident) {
+  Motion& moving = motion(index);
+  sample_until(incident.time);
+  const RestingContact contact = moving.resting()[static_cast<std::size_t>(incident.index)];
+  const World::Body& body = body_of(moving.pair(contact.pair));
+  const Eigen::VectorXd q = moving.state(incident.time);
+  write_sample(incident.time);
+  write_sample(incident.time);
+  record_leave(moving, contact, incident.time, q);
+  std::vector<Released> released = {release(moving, incident.index, incident.time, q)};
+  release_by_force(moving, body, incident.time, q, released);
+  moving.restart(incident.time, q);
+  for (const Released& each : released) moving.rebound(each.pair, each.memory);
+  advance(index);
+}
+
+}  // namespace trajet
