@@ -419,6 +419,16 @@ TEST(Contact, WhatARoundedJointHidesIsAHitAtTheJoint) {
   EXPECT_EQ(found[0].direction, ContactDirection::entering);
 }
 
+TEST(Contact, ASearchOfNoDurationKeepsWhatIsKnown) {
+  const ContactResult hit = contacts(segment(0.0, 1.0, {0, 0, 1}, {0, 0, -1}), kGround)[0];
+  ASSERT_EQ(hit.time, 1.0);
+  const auto found = contacts(segment(1.0, 1.0, {0, 0, 0.5}, {0, 0, -1}), kGround, 0.0, hit.memory);
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0].status, ContactStatus::separated);
+  EXPECT_EQ(found[0].memory.side, hit.memory.side);
+  EXPECT_EQ(found[0].memory.contact_time, hit.memory.contact_time);
+}
+
 TEST(Contact, AHandledContactKeepsTheToleranceOfItsFlight) {
   // After a long fall the state is rounded more coarsely than its own size tells; here it leaves without speed.
   const ContactResult hit = contacts(segment(0.0, 60.0, {0, 0, 1e4}, {0, 0, 0}, kGravity), kGround)[0];
