@@ -58,8 +58,8 @@ void EventWatch::search(const Segment<>& segment, double from) {
   if (next_.found) return;  // where the motion was restarted
   next_ = {};
   const Path<Eigen::Dynamic> path(segment, inputs_);
-  const ComposedFunction function(path, Function{&enclosures_, &inputs_, &state_}, from - segment.t0(), segment.duration(),
-                                  std::exchange(at_zero_, 0.0));
+  const ComposedFunction function(path, Function{&enclosures_, &inputs_, &state_}, from - segment.t0(),
+                                  segment.duration(), std::exchange(at_zero_, 0.0));
   visit_roots(function, [&](const Root& root) {
     if (root.kind == RootKind::unresolved) {
       next_ = {true, segment.t0() + root.time, 0.0, 0, true};

@@ -15,9 +15,9 @@ namespace trajet {
 
 /// Looks out for the times at which a program of t and the state crosses zero along a motion.
 ///
-/// A crossing at the joint of two Segments counts once: the watch remembers the sign it has seen last. A start on zero, a
-/// touch, and a jump of the state across zero are no crossings. A motion that comes to zero where an impact or another
-/// event changes its state has crossed.
+/// A crossing at the joint of two Segments counts once: the watch remembers the sign it has seen last. A start on zero,
+/// a touch, and a jump of the state across zero are no crossings. A motion that comes to zero where an impact or
+/// another event changes its state has crossed.
 class EventWatch {
  public:
   struct Crossing {
@@ -30,8 +30,8 @@ class EventWatch {
 
   EventWatch(Program when, CrossingDirection direction);
 
-  /// The motion goes on at time `t` from state `q`; it came there in state `before`. A crossing at this time, within its
-  /// error bound, that was not taken yet stays the next one.
+  /// The motion goes on at time `t` from state `q`; it came there in state `before`. A crossing at this time, within
+  /// its error bound, that was not taken yet stays the next one.
   void restart(double t, const double* before, const double* q);
   /// Finds the first crossing on the Segment behind `from`, which lies on it; remembered until the watch moves on.
   void search(const Segment<>& segment, double from);
@@ -45,7 +45,7 @@ class EventWatch {
   /// The program on enclosures of the inputs it reads.
   struct Function {
     Evaluator<IntervalJet>* evaluator;
-    const std::vector<int>* inputs;        // components of the state
+    const std::vector<int>* inputs;  // components of the state
     std::vector<IntervalJet>* state;
     template <class Components>
     IntervalJet operator()(const IntervalJet& t, const Components& x) const {
@@ -63,9 +63,9 @@ class EventWatch {
   std::vector<IntervalJet> state_;
   Evaluator<double> values_;
   Evaluator<IntervalJet> enclosures_;
-  int sign_ = 0;         // seen last, 0 unknown
+  int sign_ = 0;          // seen last, 0 unknown
   double at_zero_ = 0.0;  // values as small still belong to the crossing on which the motion was restarted
-  Crossing last_;        // that was taken
+  Crossing last_;         // that was taken
   Crossing next_;
 };
 

@@ -22,8 +22,8 @@ struct Incident {
 
 /// One group of a World on its way: its stepper, the Segment it is on, and all it looks out for.
 ///
-/// It advances by Segments; on each, `next()` is the first incident behind what was handled. Whoever handles an incident says
-/// how the motion goes on: `pass_event`, `pass_contact`, or `restart` from a new state.
+/// It advances by Segments; on each, `next()` is the first incident behind what was handled. Whoever handles an
+/// incident says how the motion goes on: `pass_event`, `pass_contact`, or `restart` from a new state.
 class Motion {
  public:
   /// A body of the group and an obstacle.

@@ -9,8 +9,9 @@
 namespace trajet {
 namespace {
 
-/// Whether a body that moves away with `speed` from an obstacle towards which it is accelerated with `pull` is in contact
-/// still. A flight this much higher than the gap that can be told from contact is a flight: u^2 / (2 g) against the gap.
+/// Whether a body that moves away with `speed` from an obstacle towards which it is accelerated with `pull` is in
+/// contact still. A flight this much higher than the gap that can be told from contact is a flight: u^2 / (2 g) against
+/// the gap.
 bool is_below_flight(double speed, double pull, double tolerance) {
   constexpr double kLowestFlight = 1e5;
   return speed * speed <= 2.0 * pull * kLowestFlight * tolerance;
@@ -44,7 +45,8 @@ void Simulation::bounce(int index, const Incident& incident, Impact impact) {
       return;
     }
     moving.begin_rest(incident.index, impact.normal);
-    for (const Vector3& direction : moving.support(body.offset).blocked) velocity -= velocity.dot(direction) * direction;
+    for (const Vector3& direction : moving.support(body.offset).blocked)
+      velocity -= velocity.dot(direction) * direction;
     impact.kind = ImpactKind::rest;
     impact.time = t + rest.duration;
     impact.velocity_before = impact.velocity_after;
@@ -114,7 +116,8 @@ Simulation::Released Simulation::release(Motion& moving, int resting, double t, 
   // what the body has drifted off the surface while it rested is still contact
   const Vector3 position = q.segment<3>(contact.offset);
   const Vector3 point = position - body_of(pair).radius * contact.normal;
-  const Vector3 surface = std::visit([&](const auto& shape) { return closest_point(shape, position); }, obstacle_of(pair).shape);
+  const Vector3 surface =
+      std::visit([&](const auto& shape) { return closest_point(shape, position); }, obstacle_of(pair).shape);
   memory.tolerance = std::max(memory.tolerance, 2.0 * (surface - point).norm());
   moving.end_rest(resting);
   return {contact.pair, memory};
