@@ -79,7 +79,7 @@ TYPED_TEST(Solutions, TaylorIsWithinTheToleranceTimesTheCondition) {
 TYPED_TEST(Solutions, Rk4WithShortStepsIsRight) {
   const double step = (TypeParam::end_time() - TypeParam::start_time()) / 20000;
   // the orbit, measured: 6e-7; all others below 1e-9
-  EXPECT_LE((end_error<Rk4, TypeParam>(with_step(step))), std::is_same_v<TypeParam, Kepler> ? 2e-6 : 1e-8);
+  EXPECT_LE((end_error<Rk4, TypeParam>(with_step(step))), (std::is_same_v<TypeParam, Kepler> ? 2e-6 : 1e-8));
 }
 
 // Where the solution is a polynomial within the reach of the method, one step is exact: F18 and F21 of the course.
