@@ -7,7 +7,8 @@
 
 namespace trajet {
 
-Motion::Motion(const World& world, int group) : world_(world), group_(group) {
+Motion::Motion(const World& world, int group, RunObserver& observer)
+    : world_(world), group_(group), observer_(observer) {
   for (const int body : this->group().bodies)
     for (std::size_t obstacle = 0; obstacle < world.obstacles.size(); ++obstacle)
       pairs_.push_back({body, static_cast<int>(obstacle)});
@@ -45,6 +46,8 @@ void Motion::use_law() {
 void Motion::begin(double t, const Eigen::VectorXd& q) {
   stepper_->start(t, q);
   end_state_ = q;
+  handed_on_ = t;
+  begins_anew_ = true;
   segment_.resize(static_cast<int>(q.size()), 0);
   segment_.set_interval(t, t);
   segment_.coefficients().col(0) = q;
@@ -53,7 +56,15 @@ void Motion::begin(double t, const Eigen::VectorXd& q) {
   next_ = {t};
 }
 
+void Motion::hand_on(double t) {
+  if (t == handed_on_) return;
+  observer_.motion({group_, segment_, handed_on_, t, begins_anew_, t == segment_.t1()});
+  handed_on_ = t;
+  begins_anew_ = false;
+}
+
 void Motion::restart(double t, const Eigen::VectorXd& q) {
+  hand_on(t);
   const Eigen::VectorXd before = state(t);
   for (Pair& pair : pairs_) know_until(pair, t);
   for (Watch& watch : watches_) watch.watch.restart(t, before.data(), q.data());
@@ -62,6 +73,7 @@ void Motion::restart(double t, const Eigen::VectorXd& q) {
 }
 
 StepStatus Motion::advance() {
+  hand_on(segment_.t1());
   const StepStatus status = stepper_->advance(world_.end);
   if (status != StepStatus::ok) return status;
   for (Pair& pair : pairs_) know_until(pair, segment_.t1());

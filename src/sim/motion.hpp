@@ -36,11 +36,14 @@ class Motion {
     ContactResult contact{};  ///< the next one behind `known_at` on the current Segment
   };
 
-  Motion(const World& world, int group);
+  /// The observer receives the motion piece by piece. All but the last piece: that is up to `hand_on`.
+  Motion(const World& world, int group, RunObserver& observer);
 
   /// Makes the next Segment, from the current time on.
   StepStatus advance();
   const Incident& next() const { return next_; }
+  /// Hands the motion on the current Segment up to time t to the observer, as far as it has not been.
+  void hand_on(double t);
 
   /// The event was noticed; it is not the next one any more.
   void take_event(int event);
@@ -102,6 +105,9 @@ class Motion {
 
   const World& world_;
   int group_;
+  RunObserver& observer_;
+  double handed_on_ = 0.0;   // s
+  bool begins_anew_ = true;  // nothing was handed on since the last start
   std::unique_ptr<ProgramSystem> system_;
   std::unique_ptr<AnyStepper> stepper_;
   StepStatistics finished_steppers_;

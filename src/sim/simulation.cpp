@@ -28,7 +28,7 @@ std::string failure_text(StepStatus status) {
 Simulation::Simulation(const World& world, RunObserver& observer)
     : world_(world), observer_(observer), direction_(world.end < world.start ? -1.0 : 1.0) {
   for (std::size_t g = 0; g < world.groups.size(); ++g)
-    motions_.push_back(std::make_unique<Motion>(world, static_cast<int>(g)));
+    motions_.push_back(std::make_unique<Motion>(world, static_cast<int>(g), observer));
   result_.scene = world.scene;
   result_.title = world.title;
   result_.method = world.method->name;
@@ -37,6 +37,7 @@ Simulation::Simulation(const World& world, RunObserver& observer)
 }
 
 RunResult Simulation::run() {
+  observer_.begin(world_);
   sample_until(world_.start);
   if (world_.end != world_.start)
     for (std::size_t i = 0; i < motions_.size() && running_; ++i) advance(static_cast<int>(i));
@@ -52,6 +53,7 @@ RunResult Simulation::run() {
     }
     handle(index, incident);
   }
+  for (const auto& each : motions_) each->hand_on(result_.end_time);
   sample_until(result_.end_time);
   if (result_.status != RunStatus::stopped && last_sample_ != result_.end_time) write_sample(result_.end_time);
   std::stable_sort(result_.impacts.begin(), result_.impacts.end(),

@@ -41,6 +41,7 @@ class WorldBuilder {
     find_dependencies();
     place_in_groups();
     for (std::size_t g = 0; g < world_.groups.size(); ++g) compile_group(static_cast<int>(g));
+    for (const NamedExpression& closed_form : scene_.exact) compile_exact(closed_form);
     return std::move(world_);
   }
 
@@ -258,7 +259,7 @@ class WorldBuilder {
     event.when = when.build();
     ProgramBuilder set(input_count);
     for (const NamedExpression& assignment : definition.set) {
-      const AssignmentTarget target = find_target(assignment, event.group);
+      const AssignmentTarget target = find_target(assignment);  // in the event's group, which depends on it
       set.add_output(target.size == 3 ? set.compile_vector(assignment.value, symbols)
                                       : set.compile_scalar(assignment.value, symbols));
       for (int i = 0; i < target.size; ++i) event.targets.push_back(target.offset + i);
@@ -266,22 +267,34 @@ class WorldBuilder {
     event.set = set.build();
   }
 
-  /// Components of a group's state that an assignment replaces.
+  void compile_exact(const NamedExpression& closed_form) {
+    const AssignmentTarget target = find_target(closed_form);
+    Symbols symbols(&parameters_.symbols);
+    symbols.set_input("t", 0);
+    ProgramBuilder value(1);
+    value.add_output(target.size == 3 ? value.compile_vector(closed_form.value, symbols)
+                                      : value.compile_scalar(closed_form.value, symbols));
+    world_.exact.push_back({closed_form.name, target.group, target.offset, value.build(), closed_form.where});
+  }
+
+  /// Components of a group's state that an assignment replaces, or a closed form gives.
   struct AssignmentTarget {
+    int group;
     int offset;
     int size;
   };
 
-  AssignmentTarget find_target(const NamedExpression& assignment, int index) const {
+  AssignmentTarget find_target(const NamedExpression& assignment) const {
     for (const World::ExtraState& state : world_.states)
-      if (state.name == assignment.name && state.group == index) return {state.offset, 1};
+      if (state.name == assignment.name) return {state.group, state.offset, 1};
     const std::size_t dot = assignment.name.find('.');
     if (dot != std::string::npos) {
       const BodyPart* part = find_body_part(std::string_view(assignment.name).substr(dot + 1));
       for (const World::Body& body : world_.bodies)
-        if (part != nullptr && body.name == assignment.name.substr(0, dot)) return {body.offset + part->first, part->size};
+        if (part != nullptr && body.name == assignment.name.substr(0, dot))
+          return {body.group, body.offset + part->first, part->size};
     }
-    throw InputError(assignment.where, "'" + assignment.name + "' cannot be set: it is neither an extra state nor a part of a body such as ball.v");
+    throw InputError(assignment.where, "'" + assignment.name + "' is neither an extra state nor a part of a body such as ball.v");
   }
 
   const Scene& scene_;

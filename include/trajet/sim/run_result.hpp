@@ -5,9 +5,12 @@
 #include <vector>
 
 #include "trajet/math/vector.hpp"
+#include "trajet/ode/segment.hpp"
 #include "trajet/ode/stepper.hpp"
 
 namespace trajet {
+
+struct World;
 
 enum class RunStatus {
   finished,     ///< reached the end time
@@ -84,10 +87,24 @@ struct RunResult {
   RunStatistics statistics;
 };
 
+/// How one group of bodies and states moved from one time to another.
+struct MotionPiece {
+  int group;                 ///< in World::groups: what the components of the Segment are
+  const Segment<>& segment;  ///< is the motion between `from` and `to`, which lie on it
+  double from;               ///< s
+  double to;                 ///< s; before `from` in a run backward in time
+  bool begins_anew;          ///< the state or the law may have jumped at `from`: the start, a bounce, an event that set it
+  bool ends_step;            ///< a step of the method ends at `to`; else an impact, an event or the run's end cut it
+};
+
 /// Receives a run while it goes on. Every function has a default that does nothing.
 class RunObserver {
  public:
   virtual ~RunObserver() = default;
+  /// Once, before all else: what is going to move. The World lives as long as the run.
+  virtual void begin(const World&) {}
+  /// All of the motion, on the Segments that were searched for impacts. The pieces of a group join without gaps in time.
+  virtual void motion(const MotionPiece&) {}
   /// In order of time: the start, each multiple of the sample spacing, before and after each impact, the end.
   virtual void sample(const Sample&) {}
   /// Asked between steps: true ends the run as `interrupted`. `time` is how far the run has come.

@@ -60,6 +60,15 @@ struct World {
     std::vector<int> events;  ///< indices into World::events
   };
 
+  /// A part of the exact solution, as the scene's `[exact]` gives it.
+  struct ClosedForm {
+    std::string name;  ///< `ball.r`, `ball.v` or an extra state
+    int group = 0;
+    int offset = 0;    ///< of its first component in the group's state
+    Program value;     ///< of t alone; one output or three
+    SourceLocation where{};
+  };
+
   std::string scene;  ///< file name
   std::string title;
   double start = 0.0;   ///< s
@@ -75,6 +84,7 @@ struct World {
   std::vector<ExtraState> states;
   std::vector<Event> events;
   std::vector<Group> groups;
+  std::vector<ClosedForm> exact;
 };
 
 /// Gives a scene its numbers. Throws InputError that points at the place, FileError for a table that cannot be read.
