@@ -178,8 +178,8 @@ class WorldBuilder {
         body.radius = numbers_.positive(ball->radius, "radius" + of_body(definition));
       body.group = group_of(static_cast<int>(i));
       Eigen::Vector<double, World::kBodySize> start;
-      start << numbers_.vector(definition.position, "position" + of_body(definition)),
-          numbers_.vector(definition.velocity, "velocity" + of_body(definition));
+      start.head<3>() = numbers_.vector(definition.position, "position" + of_body(definition));
+      start.tail<3>() = numbers_.vector(definition.velocity, "velocity" + of_body(definition));
       body.offset = append(group(body.group).start, start);
       group(body.group).bodies.push_back(static_cast<int>(i));
       world_.bodies.push_back(std::move(body));
