@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "trajet/io/scene_overrides.hpp"
 
@@ -16,7 +17,7 @@ enum ExitCode : int {
   kInterrupted = 130,
 };
 
-/// What `trajet run` and `trajet check` take from the command line.
+/// What the commands that work on a scene take from the command line.
 struct RunArguments {
   std::string scene;
   SceneOverrides overrides;
@@ -25,9 +26,18 @@ struct RunArguments {
   bool quiet = false;
 };
 
+/// What `trajet compare` takes beside that.
+struct CompareArguments : RunArguments {
+  std::vector<std::string> methods;
+  std::vector<long> steps;
+  std::vector<double> rtols;
+  std::string reference;
+};
+
 // One function per command. They throw InputError and FileError; `main` turns these into exit codes.
 int run_command(const RunArguments& arguments);
 int check_command(const RunArguments& arguments);
+int compare_command(const CompareArguments& arguments);
 int methods_command();
 /// Lists the built-in scenes, or prints the one of that name.
 int examples_command(const std::string& name);

@@ -28,6 +28,29 @@ void add_scene_options(CLI::App& command, RunArguments& arguments) {
   command.add_flag("--quiet", arguments.quiet, "no summary");
 }
 
+void add_report_options(CLI::App& command, RunArguments& arguments) {
+  command.add_option("--json", arguments.json, "write the report there, - for standard output")->type_name("FILE");
+  command.add_option("--csv", arguments.csv, "write the samples or rows there, - for standard output")
+      ->type_name("FILE");
+}
+
+void add_compare_options(CLI::App& command, CompareArguments& arguments) {
+  command.add_option("--methods", arguments.methods, "methods to compare, default: all")
+      ->delimiter(',')
+      ->type_name("NAME,...");
+  command.add_option("--steps", arguments.steps, "numbers of steps over the run, for methods of given step")
+      ->delimiter(',')
+      ->check(CLI::PositiveNumber)
+      ->type_name("N,...");
+  command.add_option("--rtols", arguments.rtols, "relative tolerances, for error-controlled methods")
+      ->delimiter(',')
+      ->check(CLI::PositiveNumber)
+      ->type_name("X,...");
+  command
+      .add_option("--reference", arguments.reference, "what to compare with: exact (the scene's [exact]) or a method")
+      ->type_name("NAME");
+}
+
 /// An unknown command gets a better answer than CLI11's; options are left to it.
 void check_command_name(const std::vector<std::string_view>& commands, int argc, char** argv) {
   if (argc < 2) return;
@@ -48,15 +71,19 @@ int run_program(int argc, char** argv) {
   std::string example;
   CLI::App& run = *app.add_subcommand("run", "compute one motion");
   add_scene_options(run, arguments);
-  run.add_option("--json", arguments.json, "write the report there, - for standard output")->type_name("FILE");
-  run.add_option("--csv", arguments.csv, "write the samples there, - for standard output")->type_name("FILE");
+  add_report_options(run, arguments);
   CLI::App& check = *app.add_subcommand("check", "validate a scene without running it");
   add_scene_options(check, arguments);
+  CompareArguments comparison;
+  CLI::App& compare = *app.add_subcommand("compare", "measure several methods against a reference");
+  add_scene_options(compare, comparison);
+  add_report_options(compare, comparison);
+  add_compare_options(compare, comparison);
   CLI::App& methods = *app.add_subcommand("methods", "list the integration methods");
   CLI::App& examples = *app.add_subcommand("examples", "list the built-in scenes, or print one");
   examples.add_option("NAME", example, "the scene to print");
 
-  check_command_name({"run", "check", "methods", "examples"}, argc, argv);
+  check_command_name({"run", "check", "compare", "methods", "examples"}, argc, argv);
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& success) {  // --help, --version
@@ -67,6 +94,7 @@ int run_program(int argc, char** argv) {
   }
   if (run) return run_command(arguments);
   if (check) return check_command(arguments);
+  if (compare) return compare_command(comparison);
   if (methods) return methods_command();
   return examples_command(example);
 }

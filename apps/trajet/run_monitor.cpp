@@ -6,6 +6,7 @@
 #include <atomic>
 
 #include "terminal.hpp"
+#include "trajet/sim/world.hpp"
 
 namespace trajet {
 
@@ -17,12 +18,18 @@ constexpr std::chrono::milliseconds kShowInterval{100};
 std::atomic<bool> is_interrupted{false};
 static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler writes it");
 
+/// "45 s", "12 min", "3.4 h": as exact as a guess deserves.
+std::string format_duration(double seconds) {
+  if (seconds < 99.5) return fmt::format("{:.0f} s", seconds);
+  if (seconds < 99.5 * 60.0) return fmt::format("{:.0f} min", seconds / 60.0);
+  return fmt::format("{:.1f} h", seconds / 3600.0);
+}
+
 void note_interrupt(int) { is_interrupted.store(true, std::memory_order_relaxed); }
 
 }  // namespace
 
-RunMonitor::RunMonitor(CsvWriter* csv)
-    : csv_(csv), shows_progress_(is_terminal(stderr)), next_show_(Clock::now() + kFirstShow) {
+RunMonitor::RunMonitor(CsvWriter* csv) : csv_(csv), shows_progress_(is_terminal(stderr)) {
   struct sigaction action = {};
   action.sa_handler = note_interrupt;
   action.sa_flags = static_cast<int>(SA_RESETHAND);
@@ -33,17 +40,38 @@ RunMonitor::~RunMonitor() {
   if (has_shown_) fmt::print(stderr, "\r\033[K");
 }
 
+void RunMonitor::begin(const World& world) {
+  start_ = world.start;
+  end_ = world.end;
+  steps_ = 0;
+  began_ = Clock::now();
+  next_show_ = began_ + kFirstShow;
+}
+
+void RunMonitor::motion(const MotionPiece& piece) {
+  if (piece.ends_step) ++steps_;
+}
+
 void RunMonitor::sample(const Sample& sample) {
   if (csv_ != nullptr) csv_->sample(sample);
 }
 
 bool RunMonitor::interrupted(double time) {
-  if (shows_progress_ && Clock::now() >= next_show_) {
-    fmt::print(stderr, "\rt = {:<12.6g} s", time);
-    has_shown_ = true;
-    next_show_ = Clock::now() + kShowInterval;
-  }
+  if (shows_progress_)
+    if (const Clock::time_point now = Clock::now(); now >= next_show_) show(time, now);
   return is_interrupted.load(std::memory_order_relaxed);
+}
+
+void RunMonitor::show(double time, Clock::time_point now) {
+  const double elapsed = std::chrono::duration<double>(now - began_).count();
+  const double done = (time - start_) / (end_ - start_);
+  std::string line = label_.empty() ? "" : label_ + ": ";
+  line += fmt::format("{:.0f} %, t = {:.6g} of {:.6g} s, {:.3g} steps/s", 100.0 * done, time, end_,
+                      static_cast<double>(steps_) / elapsed);
+  if (done > 0.0) line += fmt::format(", {} left", format_duration(elapsed * (1.0 / done - 1.0)));
+  fmt::print(stderr, "\r{}\033[K", line);
+  has_shown_ = true;
+  next_show_ = now + kShowInterval;
 }
 
 }  // namespace trajet

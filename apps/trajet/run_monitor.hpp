@@ -1,6 +1,8 @@
 #pragma once
 
 #include <chrono>
+#include <string>
+#include <utility>
 
 #include "trajet/io/csv_writer.hpp"
 #include "trajet/sim/run_result.hpp"
@@ -9,7 +11,8 @@ namespace trajet {
 
 /// Follows a run for the program: passes samples on, shows progress, and ends the run on Ctrl-C.
 ///
-/// Progress goes to standard error, only if it is a terminal, and only once a run has taken half a second.
+/// Progress goes to standard error, only if it is a terminal, and only once a run has taken half a second: how far it
+/// is, how fast it goes, and how long it will still take at that speed.
 class RunMonitor : public RunObserver {
  public:
   /// From now on Ctrl-C ends the run instead of the program; a second one ends the program. `csv` may be null.
@@ -19,15 +22,27 @@ class RunMonitor : public RunObserver {
   RunMonitor(const RunMonitor&) = delete;
   RunMonitor& operator=(const RunMonitor&) = delete;
 
+  /// What stands before the progress of the runs that follow: "rk4, step 0.1 s (2 of 6)".
+  void set_label(std::string label) { label_ = std::move(label); }
+
+  void begin(const World& world) override;
+  void motion(const MotionPiece& piece) override;
   void sample(const Sample& sample) override;
   bool interrupted(double time) override;
 
  private:
   using Clock = std::chrono::steady_clock;
 
+  void show(double time, Clock::time_point now);
+
   CsvWriter* csv_;
   bool shows_progress_;
   bool has_shown_ = false;
+  std::string label_;
+  double start_ = 0.0;  // s, of the motion
+  double end_ = 0.0;    // s
+  long steps_ = 0;
+  Clock::time_point began_;
   Clock::time_point next_show_;
 };
 

@@ -2,34 +2,15 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <iterator>
 #include <vector>
 
 #include "terminal.hpp"
+#include "text_table.hpp"
 #include "trajet/io/names.hpp"
 
 namespace trajet {
 
 namespace {
-
-/// Rows of cells, printed with columns as wide as their widest cell. The first row is the heading.
-using Table = std::vector<std::vector<std::string>>;
-
-std::string format(const Table& table) {
-  std::vector<std::size_t> widths(table.front().size());
-  for (const auto& row : table)
-    for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], row[i].size());
-  std::string text;
-  for (const auto& row : table) {
-    std::string line;
-    for (std::size_t i = 0; i < row.size(); ++i)
-      fmt::format_to(std::back_inserter(line), "  {:<{}}", row[i], widths[i]);
-    line.erase(line.find_last_not_of(' ') + 1);
-    text += line + "\n";
-  }
-  return text;
-}
 
 std::string format(const Vector3& v) { return fmt::format("({:.6g}, {:.6g}, {:.6g})", v.x(), v.y(), v.z()); }
 
@@ -38,26 +19,26 @@ std::string format_time(double time) { return fmt::format("{:.10g}", time); }
 std::string impact_table(const std::vector<Impact>& impacts) {
   // A ball that bounces to rest has hundreds of impacts: the first tell the story, the reports have them all.
   constexpr std::size_t kMostRows = 20;
-  Table table{{"time [s]", "body", "with", "kind", "point [m]", "speed before [m/s]", "after"}};
+  TextTable table{{"time [s]", "body", "with", "kind", "point [m]", "speed before [m/s]", "after"}};
   for (const Impact& impact : impacts) {
     if (table.size() > kMostRows) break;
     table.push_back({format_time(impact.time), impact.body, impact.with, std::string(name(impact.kind)),
                      format(impact.point), fmt::format("{:.6g}", impact.velocity_before.norm()),
                      fmt::format("{:.6g}", impact.velocity_after.norm())});
   }
-  std::string text = format(table);
+  std::string text = format_table(table);
   if (impacts.size() > kMostRows) text += fmt::format("  … and {} more\n", impacts.size() - kMostRows);
   return text;
 }
 
 std::string event_table(const std::vector<EventRecord>& events) {
   constexpr std::size_t kMostRows = 20;
-  Table table{{"time [s]", "event", "direction"}};
+  TextTable table{{"time [s]", "event", "direction"}};
   for (const EventRecord& event : events) {
     if (table.size() > kMostRows) break;
     table.push_back({format_time(event.time), event.event, event.direction < 0 ? "falling" : "rising"});
   }
-  std::string text = format(table);
+  std::string text = format_table(table);
   if (events.size() > kMostRows) text += fmt::format("  … and {} more\n", events.size() - kMostRows);
   return text;
 }
@@ -65,10 +46,10 @@ std::string event_table(const std::vector<EventRecord>& events) {
 std::string final_state(const Sample& final) {
   std::string text;
   if (!final.bodies.empty()) {
-    Table table{{"at the end", "position [m]", "velocity [m/s]"}};
+    TextTable table{{"at the end", "position [m]", "velocity [m/s]"}};
     for (const BodyState& body : final.bodies)
       table.push_back({body.body, format(body.position), format(body.velocity)});
-    text += format(table);
+    text += format_table(table);
   }
   for (const NamedValue& state : final.states) text += fmt::format("  {} = {:.10g}\n", state.name, state.value);
   return text;

@@ -1,8 +1,6 @@
 #include "trajet/io/report_json.hpp"
 
-#include <algorithm>
-#include <nlohmann/json.hpp>
-
+#include "json_text.hpp"
 #include "trajet/io/names.hpp"
 #include "trajet/version.hpp"
 
@@ -10,7 +8,7 @@ namespace trajet {
 
 namespace {
 
-using Json = nlohmann::ordered_json;
+using detail::Json;
 
 Json array(const Vector3& v) { return {v.x(), v.y(), v.z()}; }
 
@@ -65,31 +63,6 @@ Json array(const std::vector<T>& items) {
   return json;
 }
 
-/// Whether a value stands on one line: numbers, strings, and arrays of them.
-bool is_short(const Json& json) {
-  if (!json.is_structured() || json.empty()) return true;
-  return json.is_array() &&
-         std::ranges::none_of(json, [](const Json& item) { return item.is_object() || item.is_string(); });
-}
-
-/// JSON as a person would lay it out: vectors and matrices on one line, everything else one line per member.
-void append(std::string& text, const Json& json, std::size_t indent) {
-  if (is_short(json)) {
-    // A file name may hold bytes that are no UTF-8.
-    text += json.dump(-1, ' ', false, Json::error_handler_t::replace);
-    return;
-  }
-  text += json.is_object() ? "{" : "[";
-  const char* separator = "\n";
-  for (const auto& [key, value] : json.items()) {
-    text += separator + std::string(indent + 2, ' ');
-    if (json.is_object()) text += Json(key).dump() + ": ";
-    append(text, value, indent + 2);
-    separator = ",\n";
-  }
-  text += "\n" + std::string(indent, ' ') + (json.is_object() ? "}" : "]");
-}
-
 }  // namespace
 
 std::string report_json(const RunResult& result) {
@@ -111,9 +84,7 @@ std::string report_json(const RunResult& result) {
                         {"rejected_steps", result.statistics.rejected_steps},
                         {"law_evaluations", result.statistics.law_evaluations},
                         {"wall_seconds", result.statistics.wall_seconds}};
-  std::string text;
-  append(text, json, 0);
-  return text + "\n";
+  return detail::json_text(json);
 }
 
 }  // namespace trajet

@@ -1,0 +1,141 @@
+#include <fmt/format.h>
+
+#include <optional>
+
+#include "commands.hpp"
+#include "run_monitor.hpp"
+#include "terminal.hpp"
+#include "text_table.hpp"
+#include "trajet/io/compare_report.hpp"
+#include "trajet/io/output_file.hpp"
+#include "trajet/io/scene_file.hpp"
+#include "trajet/sim/compare.hpp"
+
+namespace trajet {
+
+namespace {
+
+/// Shows how far a comparison is; Ctrl-C ends it with the rows so far.
+class CompareMonitor : public CompareObserver {
+ public:
+  RunObserver* begin_reference(const std::string& method) override {
+    monitor_.set_label("reference by " + method);
+    return &monitor_;
+  }
+  RunObserver* begin_row(const ComparisonRow& row, std::size_t index, std::size_t count) override {
+    monitor_.set_label(fmt::format("{} ({} of {})", row.method, index + 1, count));
+    return &monitor_;
+  }
+
+ private:
+  RunMonitor monitor_{nullptr};
+};
+
+ComparePlan plan(const CompareArguments& arguments) {
+  ComparePlan plan;
+  plan.methods = arguments.methods;
+  if (plan.methods.empty() && arguments.overrides.method) plan.methods = {*arguments.overrides.method};
+  plan.step_counts = arguments.steps;
+  for (const double rtol : arguments.rtols) plan.rtols.push_back(Expression::number(rtol, {"--rtols"}));
+  plan.reference = arguments.reference;
+  plan.methods_where = {"--methods"};
+  plan.reference_where = {"--reference"};
+  return plan;
+}
+
+std::string cell(const std::optional<double>& value) { return value ? fmt::format("{:.6g}", *value) : "-"; }
+
+std::string reference_line(const Comparison& comparison) {
+  std::string text = "reference: ";
+  if (comparison.reference_name == "exact") {
+    text += "exact, the scene's closed forms";
+  } else {
+    text += comparison.reference_name;
+    if (comparison.reference_rtol)
+      text += fmt::format(", rtol {:g}, atol {:g}", *comparison.reference_rtol, *comparison.reference_atol);
+    if (comparison.reference_step) text += fmt::format(", step {:g} s", *comparison.reference_step);
+  }
+  return text + fmt::format("; compared: {}\n", fmt::join(comparison.components, ", "));
+}
+
+std::string table(const Comparison& comparison, bool color) {
+  TextTable table{{"method", "step [s]", "rtol", "error: end", "at samples", "at nodes", "position: end", "at samples",
+                   "at nodes", "evaluations", "steps", "rejected", "time [ms]"}};
+  std::string failures;
+  for (const ComparisonRow& row : comparison.rows) {
+    const std::string setting =
+        row.rtol ? fmt::format("rtol {:g}", *row.rtol) : fmt::format("step {} s", cell(row.step));
+    if (!row.succeeded()) {
+      failures += fmt::format("  {}, {}: {}\n", styled(row.method, Style::red, color), setting, row.failure);
+      continue;
+    }
+    table.push_back({row.method, cell(row.step), cell(row.rtol), cell(row.at_end.state), cell(row.at_samples.state),
+                     cell(row.at_nodes.state), cell(row.at_end.position), cell(row.at_samples.position),
+                     cell(row.at_nodes.position), std::to_string(row.statistics.law_evaluations),
+                     std::to_string(row.statistics.steps), std::to_string(row.statistics.rejected_steps),
+                     fmt::format("{:.3g}", 1e3 * row.statistics.wall_seconds)});
+  }
+  std::string text;
+  if (table.size() > 1) text += "\n" + format_table(table, 1);
+  if (!failures.empty()) text += "\nwithout result:\n" + failures;
+  return text;
+}
+
+std::string notes(const Comparison& comparison) {
+  std::string text = "\nerrors: largest absolute value over all components (m, m/s); position: m\n";
+  bool is_cut = false;
+  for (const ComparisonRow& row : comparison.rows)
+    is_cut = is_cut || (row.succeeded() && row.compared_until != row.end_time);
+  if (is_cut && comparison.reference_name == "exact")
+    text += "closed forms hold up to the first bounce: what follows is not compared\n";
+  else if (is_cut)
+    text += "compared up to the earlier of the two ends, that of the run and that of the reference\n";
+  return text;
+}
+
+int exit_code(const Comparison& comparison) {
+  if (comparison.interrupted) return kInterrupted;
+  for (const ComparisonRow& row : comparison.rows)
+    if (row.succeeded()) return kDone;
+  return kNumbersFailed;
+}
+
+}  // namespace
+
+int compare_command(const CompareArguments& arguments) {
+  if (arguments.json == "-" && arguments.csv == "-")
+    throw InputError({"--csv"}, "only one of --json and --csv can go to standard output");
+  Scene scene = read_scene(arguments.scene);
+  apply(arguments.overrides, scene);
+  const ComparePlan plan = trajet::plan(arguments);
+  check(scene, plan);  // a wrong scene must not cost the user an earlier report: files are opened behind this line
+  std::optional<OutputFile> json, csv;
+  if (!arguments.json.empty()) json.emplace(arguments.json);
+  if (!arguments.csv.empty()) csv.emplace(arguments.csv);
+
+  const Comparison comparison = [&] {
+    CompareMonitor monitor;
+    return compare(scene, plan, &monitor);
+  }();
+
+  if (json) {
+    json->write(compare_json(comparison));
+    json->finish();
+  }
+  if (csv) {
+    csv->write(compare_csv(comparison));
+    csv->finish();
+  }
+  const bool stdout_has_data = arguments.json == "-" || arguments.csv == "-";
+  if (!arguments.quiet && !stdout_has_data) {
+    const bool color = wants_color(stdout);
+    OutputFile out("-");
+    if (!comparison.title.empty()) out.write(styled(comparison.title, Style::bold, color) + "\n");
+    out.write(reference_line(comparison) + table(comparison, color) + notes(comparison));
+    out.finish();
+  }
+  for (const std::string& warning : comparison.warnings) fmt::print(stderr, "warning: {}\n", warning);
+  return exit_code(comparison);
+}
+
+}  // namespace trajet

@@ -1,0 +1,96 @@
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "trajet/sim/reference.hpp"
+#include "trajet/sim/run_result.hpp"
+#include "trajet/sim/scene.hpp"
+
+namespace trajet {
+
+/// Which methods to run on a scene, with what steps and tolerances, and against what.
+struct ComparePlan {
+  /// Names or aliases; empty: all of the registry.
+  std::vector<std::string> methods;
+  /// For methods of given step: into how many equal steps to divide the run. Empty: the scene's step, or 10, 40, 160.
+  std::vector<long> step_counts;
+  /// For error-controlled methods. Empty: the scene's rtol, or 1e-3, 1e-6, 1e-9.
+  std::vector<Expression> rtols;
+  /// `exact` for the scene's closed forms, or a method; empty: the closed forms if there are any, else the
+  /// error-controlled method of the highest order that is not itself compared, with tight tolerances.
+  std::string reference;
+  SourceLocation methods_where{};    ///< where errors about `methods` point to
+  SourceLocation reference_where{};  ///< likewise `reference`
+};
+
+/// How far a motion is from its reference: the largest absolute value over all components, m and m/s alike.
+struct Deviation {
+  std::optional<double> state;     ///< over all components that the reference knows
+  std::optional<double> position;  ///< over those of positions, m
+};
+
+/// One method with one step or tolerance.
+struct ComparisonRow {
+  std::string method;          ///< canonical name
+  std::optional<double> step;  ///< s, as given to the method
+  std::optional<double> rtol;  ///< error-controlled methods
+  std::optional<double> atol;
+  RunStatus status = RunStatus::failed;
+  std::string failure;          ///< why there is no result: the method does not suit the law, or the numbers failed
+  double end_time = 0.0;        ///< s; where the run ended
+  double compared_until = 0.0;  ///< s; where the comparison ended: there, or where the reference ends to hold
+  Deviation at_end;             ///< at `compared_until`
+  Deviation at_samples;         ///< maximum over the scene's samples
+  Deviation at_nodes;           ///< maximum over the ends of the method's own steps
+  std::size_t impacts = 0;
+  RunStatistics statistics;  ///< the time is the shortest of a few runs where these are short
+
+  bool succeeded() const { return status == RunStatus::finished || status == RunStatus::stopped; }
+};
+
+struct Comparison {
+  std::string scene;  ///< file name
+  std::string title;
+  std::string reference_name;  ///< `exact` or the method's
+  std::optional<double> reference_rtol;
+  std::optional<double> reference_atol;
+  std::optional<double> reference_step;  ///< s
+  std::vector<std::string> components;   ///< what is compared: `ball.r`, `ball.v`, an extra state
+  std::shared_ptr<const Reference> reference;
+  double start_time = 0.0;
+  double end_time = 0.0;  ///< asked for
+  std::vector<NamedValue> parameters;
+  std::vector<ComparisonRow> rows;
+  std::vector<std::string> warnings;
+  bool interrupted = false;
+};
+
+/// Receives a comparison while it goes on.
+class CompareObserver {
+ public:
+  virtual ~CompareObserver() = default;
+  /// A run begins: that of the reference, or of row `row` of `count`. What is returned, if anything, receives this run;
+  /// if it interrupts it, the comparison ends there.
+  virtual RunObserver* begin_reference(const std::string& /*method*/) { return nullptr; }
+  virtual RunObserver* begin_row(const ComparisonRow& /*row*/, std::size_t /*index*/, std::size_t /*count*/) {
+    return nullptr;
+  }
+};
+
+/// Checks a scene and a plan without running anything. Throws InputError that points at what is wrong.
+void check(const Scene& scene, const ComparePlan& plan);
+
+/// Runs a scene by several methods and measures each against a reference.
+///
+/// What fails for one method alone, because it does not suit the law or because the numbers fail, is told in its row;
+/// the others go on. Throws InputError where the scene or the plan is wrong, or where the reference cannot be computed.
+///
+/// Closed forms know nothing of impacts: against them a motion is compared up to its first bounce or rest, or the first
+/// event that sets a state. Against a method, it is compared up to the earlier of the two ends, bounces and all.
+Comparison compare(const Scene& scene, const ComparePlan& plan, CompareObserver* observer = nullptr);
+
+}  // namespace trajet

@@ -1,0 +1,72 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <vector>
+
+#include "trajet/law/evaluate.hpp"
+#include "trajet/ode/segment.hpp"
+#include "trajet/sim/run_result.hpp"
+#include "trajet/sim/world.hpp"
+
+namespace trajet {
+
+/// A closed form has no value where it is needed.
+class ReferenceError : public InputError {
+  using InputError::InputError;
+};
+
+/// A motion that others are compared with: the state of each group of a World as a function of time.
+class Reference {
+ public:
+  virtual ~Reference() = default;
+
+  /// How far it goes, s; nothing if it has no end.
+  virtual std::optional<double> end_time() const = 0;
+  /// Whether it holds only as long as the law alone makes the motion: no bounce, no rest, no event that sets a state.
+  virtual bool ends_at_jumps() const = 0;
+  /// The state of a group at a time from the start to the end, into `q`; not-a-number in the components that it does
+  /// not know.
+  virtual void state(int group, double t, Eigen::VectorXd& q) const = 0;
+};
+
+/// The scene's `[exact]` block.
+class ClosedFormReference : public Reference {
+ public:
+  explicit ClosedFormReference(const World& world);
+
+  std::optional<double> end_time() const override { return std::nullopt; }
+  bool ends_at_jumps() const override { return true; }
+  /// Throws ReferenceError that points at the formula if its value is not finite.
+  void state(int group, double t, Eigen::VectorXd& q) const override;
+
+ private:
+  std::vector<World::ClosedForm> closed_forms_;
+  std::vector<Eigen::Index> sizes_;                    // of the groups' states
+  mutable std::vector<Evaluator<double>> evaluators_;  // one for each closed form; their slots are scratch
+};
+
+/// A run, kept as it goes on: it is given to `run` as its observer.
+class RecordedReference : public Reference, public RunObserver {
+ public:
+  void begin(const World& world) override;
+  void motion(const MotionPiece& piece) override;
+
+  std::optional<double> end_time() const override { return end_; }
+  bool ends_at_jumps() const override { return false; }
+  /// At a jump: the state behind it.
+  void state(int group, double t, Eigen::VectorXd& q) const override;
+
+ private:
+  struct Piece {
+    double to;  // s
+    Segment<> segment;
+  };
+
+  double direction_ = 1.0;
+  double end_ = 0.0;  // s; how far the run has come
+  std::vector<Eigen::VectorXd> starts_;
+  std::vector<std::vector<Piece>> pieces_;  // of each group
+};
+
+}  // namespace trajet
