@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "trajet/io/scene_overrides.hpp"
+#include "trajet/sim/run_result.hpp"
 
 namespace trajet {
 
@@ -17,12 +18,16 @@ enum ExitCode : int {
   kInterrupted = 130,
 };
 
+/// The exit code for how a run has ended.
+int exit_code(RunStatus status);
+
 /// What the commands that work on a scene take from the command line.
 struct RunArguments {
   std::string scene;
   SceneOverrides overrides;
   std::string json;  ///< file name, `-` for standard output, empty for none
   std::string csv;   ///< likewise
+  std::string html;  ///< likewise
   bool quiet = false;
 };
 
@@ -34,8 +39,16 @@ struct CompareArguments : RunArguments {
   std::string reference;
 };
 
+/// What `trajet view` takes from the command line.
+struct ViewArguments : RunArguments {
+  std::vector<std::string> methods;  ///< further runs, shown beside the first
+  std::string out;                   ///< file name, `-` for standard output, empty for a temporary file
+  bool no_open = false;
+};
+
 // One function per command. They throw InputError and FileError; `main` turns these into exit codes.
 int run_command(const RunArguments& arguments);
+int view_command(const ViewArguments& arguments);
 int check_command(const RunArguments& arguments);
 int compare_command(const CompareArguments& arguments);
 int methods_command();

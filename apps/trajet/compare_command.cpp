@@ -28,7 +28,7 @@ class CompareMonitor : public CompareObserver {
   }
 
  private:
-  RunMonitor monitor_{nullptr};
+  RunMonitor monitor_;
 };
 
 ComparePlan plan(const CompareArguments& arguments) {

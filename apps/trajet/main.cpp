@@ -72,6 +72,16 @@ int run_program(int argc, char** argv) {
   CLI::App& run = *app.add_subcommand("run", "compute one motion");
   add_scene_options(run, arguments);
   add_report_options(run, arguments);
+  run.add_option("--html", arguments.html, "write a page that plays the motion there, - for standard output")
+      ->type_name("FILE");
+  ViewArguments viewed;
+  CLI::App& view = *app.add_subcommand("view", "look at the motion in a browser");
+  add_scene_options(view, viewed);
+  view.add_option("--methods", viewed.methods, "further methods to show beside it, separated by commas")
+      ->delimiter(',')
+      ->type_name("NAME,...");
+  view.add_option("--out", viewed.out, "write the page there, - for standard output")->type_name("FILE");
+  view.add_flag("--no-open", viewed.no_open, "do not open a browser");
   CLI::App& check = *app.add_subcommand("check", "validate a scene without running it");
   add_scene_options(check, arguments);
   CompareArguments comparison;
@@ -83,7 +93,7 @@ int run_program(int argc, char** argv) {
   CLI::App& examples = *app.add_subcommand("examples", "list the built-in scenes, or print one");
   examples.add_option("NAME", example, "the scene to print");
 
-  check_command_name({"run", "check", "compare", "methods", "examples"}, argc, argv);
+  check_command_name({"run", "view", "check", "compare", "methods", "examples"}, argc, argv);
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& success) {  // --help, --version
@@ -93,6 +103,7 @@ int run_program(int argc, char** argv) {
     return kWrongCommandLine;
   }
   if (run) return run_command(arguments);
+  if (view) return view_command(viewed);
   if (check) return check_command(arguments);
   if (compare) return compare_command(comparison);
   if (methods) return methods_command();

@@ -1,6 +1,9 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <optional>
+#include <utility>
+#include <vector>
 
 #include "commands.hpp"
 #include "run_monitor.hpp"
@@ -11,10 +14,9 @@
 #include "trajet/io/report_json.hpp"
 #include "trajet/io/scene_file.hpp"
 #include "trajet/sim/run.hpp"
+#include "trajet/viz/page.hpp"
 
 namespace trajet {
-
-namespace {
 
 int exit_code(RunStatus status) {
   switch (status) {
@@ -29,22 +31,27 @@ int exit_code(RunStatus status) {
   return kNumbersFailed;
 }
 
-}  // namespace
-
 int run_command(const RunArguments& arguments) {
-  if (arguments.json == "-" && arguments.csv == "-")
-    throw InputError({"--csv"}, "only one of --json and --csv can go to standard output");
+  const auto to_stdout = {arguments.json == "-", arguments.csv == "-", arguments.html == "-"};
+  const auto stdout_count = std::ranges::count(to_stdout, true);
+  if (stdout_count > 1) throw InputError({"--csv"}, "only one of --json, --csv and --html can go to standard output");
+  if (!arguments.html.empty() && !page_unavailable().empty()) throw FileError(page_unavailable());
   Scene scene = read_scene(arguments.scene);
   apply(arguments.overrides, scene);
   check(scene);  // a wrong scene must not cost the user an earlier report: files are opened behind this line
 
-  std::optional<OutputFile> json, csv;
+  std::optional<OutputFile> json, csv, html;
   std::optional<CsvWriter> csv_writer;
   if (!arguments.json.empty()) json.emplace(arguments.json);
   if (!arguments.csv.empty()) csv_writer.emplace(csv.emplace(arguments.csv));
+  MotionRecord motion;
+  if (!arguments.html.empty()) html.emplace(arguments.html);
 
   const RunResult result = [&] {
-    RunMonitor monitor(csv_writer ? &*csv_writer : nullptr);
+    std::vector<RunObserver*> consumers;
+    if (csv_writer) consumers.push_back(&*csv_writer);
+    if (html) consumers.push_back(&motion);
+    RunMonitor monitor(std::move(consumers));
     return run(scene, &monitor);
   }();
 
@@ -53,8 +60,11 @@ int run_command(const RunArguments& arguments) {
     json->write(report_json(result));
     json->finish();
   }
-  const bool stdout_has_data = arguments.json == "-" || arguments.csv == "-";
-  if (!arguments.quiet && !stdout_has_data) {
+  if (html) {
+    html->write(page_html({{motion, report_json(result)}}));
+    html->finish();
+  }
+  if (!arguments.quiet && stdout_count == 0) {
     OutputFile out("-");
     out.write(summary(result, wants_color(stdout)));
     out.finish();

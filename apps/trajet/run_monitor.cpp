@@ -4,6 +4,7 @@
 #include <signal.h>
 
 #include <atomic>
+#include <utility>
 
 #include "terminal.hpp"
 #include "trajet/sim/world.hpp"
@@ -29,7 +30,8 @@ void note_interrupt(int) { is_interrupted.store(true, std::memory_order_relaxed)
 
 }  // namespace
 
-RunMonitor::RunMonitor(CsvWriter* csv) : csv_(csv), shows_progress_(is_terminal(stderr)) {
+RunMonitor::RunMonitor(std::vector<RunObserver*> consumers)
+    : consumers_(std::move(consumers)), shows_progress_(is_terminal(stderr)) {
   struct sigaction action = {};
   action.sa_handler = note_interrupt;
   action.sa_flags = static_cast<int>(SA_RESETHAND);
@@ -46,14 +48,16 @@ void RunMonitor::begin(const World& world) {
   steps_ = 0;
   began_ = Clock::now();
   next_show_ = began_ + kFirstShow;
+  for (RunObserver* each : consumers_) each->begin(world);
 }
 
 void RunMonitor::motion(const MotionPiece& piece) {
   if (piece.ends_step) ++steps_;
+  for (RunObserver* each : consumers_) each->motion(piece);
 }
 
 void RunMonitor::sample(const Sample& sample) {
-  if (csv_ != nullptr) csv_->sample(sample);
+  for (RunObserver* each : consumers_) each->sample(sample);
 }
 
 bool RunMonitor::interrupted(double time) {

@@ -3,20 +3,21 @@
 #include <chrono>
 #include <string>
 #include <utility>
+#include <vector>
 
-#include "trajet/io/csv_writer.hpp"
 #include "trajet/sim/run_result.hpp"
 
 namespace trajet {
 
-/// Follows a run for the program: passes samples on, shows progress, and ends the run on Ctrl-C.
+/// Follows a run for the program: passes it on to its consumers, shows progress, and ends the run on Ctrl-C.
 ///
 /// Progress goes to standard error, only if it is a terminal, and only once a run has taken half a second: how far it
 /// is, how fast it goes, and how long it will still take at that speed.
 class RunMonitor : public RunObserver {
  public:
-  /// From now on Ctrl-C ends the run instead of the program; a second one ends the program. `csv` may be null.
-  explicit RunMonitor(CsvWriter* csv);
+  /// From now on Ctrl-C ends the run instead of the program; a second one ends the program. The consumers
+  /// outlive the monitor.
+  explicit RunMonitor(std::vector<RunObserver*> consumers = {});
   /// Removes the line of progress.
   ~RunMonitor() override;
   RunMonitor(const RunMonitor&) = delete;
@@ -35,7 +36,7 @@ class RunMonitor : public RunObserver {
 
   void show(double time, Clock::time_point now);
 
-  CsvWriter* csv_;
+  std::vector<RunObserver*> consumers_;
   bool shows_progress_;
   bool has_shown_ = false;
   std::string label_;

@@ -29,7 +29,7 @@ LEAVES = {"error", "version"}
 LIBRARIES = {
     "toml++": {"io"},
     "udunits2.h": {"io"},
-    "nlohmann": {"io"},
+    "nlohmann": {"io", "viz"},
     "fmt": {"io", "apps"},
     "CLI": {"apps"},
 }

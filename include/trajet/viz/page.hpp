@@ -1,0 +1,31 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "trajet/error.hpp"
+#include "trajet/viz/motion_record.hpp"
+
+namespace trajet {
+
+/// One run on the page. The first is the motion itself, further ones are shown beside it as ghosts.
+struct PageRun {
+  const MotionRecord& motion;
+  std::string report;  ///< its JSON report: docs/formats/report.md
+};
+
+struct PageOptions {
+  /// The page asks its server for a newer version of itself, and reloads when there is one.
+  bool is_live = false;
+};
+
+/// Why the page cannot be shown in this build of trajet; empty where it can.
+std::string page_unavailable();
+
+/// A self-contained HTML page that plays the runs: docs/formats/page.md. Throws FileError where this build has no page.
+std::string page_html(const std::vector<PageRun>& runs, const PageOptions& options = {});
+
+/// The same page, showing what is wrong with a scene, `text`, at its place. Throws like `page_html`.
+std::string error_page_html(const InputError& error, const std::string& text, const PageOptions& options = {});
+
+}  // namespace trajet

@@ -1,0 +1,115 @@
+#include "page_data.hpp"
+
+#include <bit>
+#include <cmath>
+
+#include "base64.hpp"
+
+namespace trajet::detail {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+static_assert(std::endian::native == std::endian::little, "the page reads little-endian numbers");
+
+Json array(const Vector3& v) { return {v.x(), v.y(), v.z()}; }
+
+Json object(const Plane& plane) {
+  return {{"kind", "plane"}, {"point", array(plane.point)}, {"normal", array(plane.normal)}};
+}
+
+Json object(const Disk& disk) {
+  return {{"kind", "disk"}, {"center", array(disk.center)}, {"normal", array(disk.normal)}, {"radius", disk.radius}};
+}
+
+Json object(const Rectangle& rectangle) {
+  return {{"kind", "rectangle"},       {"center", array(rectangle.center)}, {"normal", array(rectangle.normal)},
+          {"up", array(rectangle.up)}, {"width", rectangle.width},          {"height", rectangle.height}};
+}
+
+Json object(const Triangle& triangle) {
+  return {{"kind", "triangle"},
+          {"corners", {array(triangle.corners[0]), array(triangle.corners[1]), array(triangle.corners[2])}}};
+}
+
+Json object(const Sphere& sphere) {
+  return {{"kind", "sphere"}, {"center", array(sphere.center)}, {"radius", sphere.radius}};
+}
+
+Json object(const Box& box) {
+  const Matrix3& R = box.R_WB;
+  return {{"kind", "box"},
+          {"center", array(box.center)},
+          {"size", array(2.0 * box.half_size)},
+          {"axes", {array(R.col(0)), array(R.col(1)), array(R.col(2))}}};
+}
+
+/// Columns behind the last one that changes the Segment's value in double precision are left out.
+int significant_degree(const Segment<>& segment, double duration) {
+  const auto& c = segment.coefficients();
+  Eigen::VectorXd size = c.col(0).cwiseAbs();
+  double power = 1.0;
+  for (int k = 1; k <= segment.degree(); ++k) {
+    power *= duration;
+    size = size.cwiseMax(c.col(k).cwiseAbs() * power);
+  }
+  constexpr double kHalfUlp = 0x1p-53;
+  int degree = segment.degree();
+  for (; degree > 0; --degree, power /= duration)
+    if (((c.col(degree).cwiseAbs() * power).array() > kHalfUlp * size.array()).any()) break;
+  return degree;
+}
+
+/// All pieces of a group as numbers, one after the other: from, to, the Segment's t0, degree n, and then the
+/// coefficients of (t - t0)^0 for every component, those of (t - t0)^1, ..., (t - t0)^n.
+std::string packed(const std::vector<MotionRecord::Piece>& pieces) {
+  std::vector<double> numbers;
+  for (const MotionRecord::Piece& piece : pieces) {
+    const Segment<>& segment = piece.segment;
+    const int degree = significant_degree(segment, std::abs(segment.duration()));
+    numbers.insert(numbers.end(), {piece.from, piece.to, segment.t0(), static_cast<double>(degree)});
+    const double* first = segment.coefficients().data();
+    numbers.insert(numbers.end(), first, first + segment.dimension() * (degree + 1));
+  }
+  return base64({reinterpret_cast<const std::uint8_t*>(numbers.data()), numbers.size() * sizeof(double)});
+}
+
+/// A body's mass in kg where its formula needs neither time nor state, else null.
+Json constant_mass(const World::Body& body) {
+  if (!body.mass || !body.mass->instructions.empty()) return nullptr;
+  for (const Program::Constant& constant : body.mass->constants)
+    if (constant.slot == body.mass->outputs.front()) return constant.value;
+  return nullptr;
+}
+
+Json body_data(const World::Body& body) {
+  Json shape = {{"kind", body.radius > 0.0 ? "sphere" : "point"}};
+  if (body.radius > 0.0) shape["radius"] = body.radius;
+  return {{"name", body.name},   {"shape", shape},          {"mass", constant_mass(body)},
+          {"group", body.group}, {"position", body.offset}, {"velocity", body.offset + 3}};
+}
+
+}  // namespace
+
+Json page_data(const PageRun& run) {
+  const World& world = run.motion.world();
+  Json data = {{"report", Json::parse(run.report)},
+               {"bodies", Json::array()},
+               {"states", Json::array()},
+               {"obstacles", Json::array()},
+               {"groups", Json::array()}};
+  for (const World::Body& body : world.bodies) data["bodies"].push_back(body_data(body));
+  for (const World::ExtraState& state : world.states)
+    data["states"].push_back({{"name", state.name}, {"group", state.group}, {"component", state.offset}});
+  for (const World::Obstacle& obstacle : world.obstacles) {
+    Json shape = std::visit([](const auto& each) { return object(each); }, obstacle.shape);
+    data["obstacles"].push_back({{"name", obstacle.name}, {"shape", std::move(shape)}});
+  }
+  for (std::size_t g = 0; g < world.groups.size(); ++g)
+    data["groups"].push_back(
+        {{"dimension", world.groups[g].start.size()}, {"pieces", packed(run.motion.pieces(static_cast<int>(g)))}});
+  return data;
+}
+
+}  // namespace trajet::detail

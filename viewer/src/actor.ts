@@ -1,0 +1,199 @@
+import * as THREE from "three";
+import { Line2 } from "three/addons/lines/Line2.js";
+import { LineGeometry } from "three/addons/lines/LineGeometry.js";
+import { LineMaterial } from "three/addons/lines/LineMaterial.js";
+import type { Vector } from "./data";
+import { type BodyMotion, length } from "./motion";
+import { trailOf } from "./sampling";
+import { bodyGeometry, reach } from "./shapes";
+import { kComponentColors, kQuantityColors } from "./theme";
+import { kViewSize, type ViewFrame } from "./view_frame";
+
+/** What is drawn of every body. */
+export interface Visibility {
+  trails: boolean;
+  velocity: boolean;
+  acceleration: boolean;
+  axes: boolean;
+}
+
+/** px: the length of the arrow of the largest velocity or acceleration, of a body's axes, of a body too small to see. */
+const kArrowPixels = 110;
+const kAxisPixels = 45;
+const kDotPixels = 9;
+
+const dotTexture = (() => {
+  let texture: THREE.Texture | undefined;
+  return (): THREE.Texture => {
+    if (texture) return texture;
+    const canvas = document.createElement("canvas");
+    canvas.width = canvas.height = 64;
+    const context = canvas.getContext("2d")!;
+    context.fillStyle = "white";
+    context.arc(32, 32, 30, 0, 2 * Math.PI);
+    context.fill();
+    texture = new THREE.CanvasTexture(canvas);
+    return texture;
+  };
+})();
+
+/** Round dots of constant size on the screen. */
+export function dots(points: THREE.Vector3[], color: string, pixels: number, opacity = 1): THREE.Points {
+  const material = new THREE.PointsMaterial({
+    color,
+    size: pixels,
+    sizeAttenuation: false,
+    map: dotTexture(),
+    alphaTest: 0.5,
+    transparent: opacity < 1,
+    opacity,
+  });
+  const result = new THREE.Points(new THREE.BufferGeometry().setFromPoints(points), material);
+  result.frustumCulled = false;
+  return result;
+}
+
+/** An arrow along its own y axis from the origin, of length 1. */
+function arrow(color: string, opacity: number): THREE.Group {
+  const material = new THREE.MeshBasicMaterial({ color, transparent: opacity < 1, opacity });
+  const shaft = new THREE.Mesh(new THREE.CylinderGeometry(0.02, 0.02, 0.8, 12).translate(0, 0.4, 0), material);
+  const head = new THREE.Mesh(new THREE.ConeGeometry(0.07, 0.22, 20).translate(0, 0.89, 0), material);
+  return new THREE.Group().add(shaft, head);
+}
+
+/** A body with all that is drawn of it. */
+export class Actor {
+  readonly group = new THREE.Group();
+  private readonly body3d = new THREE.Group();
+  private readonly dot: THREE.Points;
+  private readonly velocity: THREE.Group;
+  private readonly acceleration: THREE.Group;
+  private readonly axes: THREE.Group;
+  private readonly way: Line2;
+  private readonly tip: Line2;
+  private readonly wholeWay: THREE.Line;
+  private readonly times: number[];
+  private readonly points: THREE.Vector3[];
+  /** How far the body reaches from its centre, and where that is now, in the drawing. */
+  readonly reach: number;
+  readonly place = new THREE.Vector3();
+  /** Of the whole run, in the drawing. */
+  readonly offset = new THREE.Vector3();
+  private readonly mostSpeed: number;
+  private readonly mostAcceleration: number;
+
+  /** `opacity` < 1: a ghost. */
+  constructor(
+    readonly motion: BodyMotion,
+    private readonly frame: ViewFrame,
+    readonly color: string,
+    opacity: number,
+  ) {
+    this.reach = reach(motion.data.shape) * frame.scale;
+    const trail = trailOf(motion, (1e-4 * kViewSize) / frame.scale);
+    this.times = trail.times;
+    this.points = trail.points.map((point) => frame.toView(point));
+    const speeds = trail.times.map((t) => length(motion.velocity(t)));
+    const accelerations = trail.times.map((t) => length(motion.acceleration(t)));
+    this.mostSpeed = largest(speeds);
+    this.mostAcceleration = largest(accelerations);
+
+    const geometry = bodyGeometry(motion.data.shape, color, motion.turns);
+    if (geometry) {
+      const material = new THREE.MeshStandardMaterial({ vertexColors: true, flatShading: motion.data.shape.kind !== "sphere", roughness: 0.6 });
+      material.transparent = opacity < 1;
+      material.opacity = opacity;
+      this.body3d.add(new THREE.Mesh(geometry, material));
+      if (motion.data.shape.kind !== "sphere")
+        this.body3d.add(
+          new THREE.LineSegments(
+            new THREE.EdgesGeometry(geometry, 15),
+            new THREE.LineBasicMaterial({ color: "#1d1d22", transparent: true, opacity: 0.6 * opacity }),
+          ),
+        );
+    }
+    this.body3d.scale.setScalar(frame.scale);
+    this.dot = dots([new THREE.Vector3()], color, kDotPixels, opacity);
+    this.velocity = arrow(kQuantityColors.velocity, opacity);
+    this.acceleration = arrow(kQuantityColors.acceleration, opacity);
+    this.axes = new THREE.Group();
+    const directions: Vector[] = [[0, 0, -Math.PI / 2], [0, 0, 0], [Math.PI / 2, 0, 0]];
+    directions.forEach((turn, i) => {
+      const axis = arrow(kComponentColors[i], opacity);
+      axis.rotation.set(...turn);
+      this.axes.add(axis);
+    });
+
+    const positions = new Float32Array(this.points.length * 3);
+    this.points.forEach((point, i) => point.toArray(positions, 3 * i));
+    const lineMaterial = new LineMaterial({ color, linewidth: 3, transparent: opacity < 1, opacity });
+    this.way = new Line2(new LineGeometry().setPositions(positions), lineMaterial);
+    this.tip = new Line2(new LineGeometry().setPositions([0, 0, 0, 0, 0, 0]), lineMaterial);
+    this.wholeWay = new THREE.Line(
+      new THREE.BufferGeometry().setFromPoints(this.points),
+      new THREE.LineBasicMaterial({ color, transparent: true, opacity: 0.35 * opacity }),
+    );
+    for (const line of [this.way, this.tip, this.wholeWay]) line.frustumCulled = false;
+    this.group.add(this.body3d, this.dot, this.velocity, this.acceleration, this.axes, this.way, this.tip, this.wholeWay);
+  }
+
+  /** Puts everything where it is at time t. `pixel`: the size of a pixel of the screen there, in the drawing. */
+  update(t: number, shown: Visibility, pixel: (at: THREE.Vector3) => number): void {
+    const { motion } = this;
+    const local = this.frame.toView(motion.position(t));
+    this.place.copy(local).add(this.offset);
+    const size = pixel(this.place);
+    const [w, x, y, z] = motion.orientation(t);
+    const turn = new THREE.Quaternion(x, y, z, w);
+    this.body3d.position.copy(local);
+    this.body3d.quaternion.copy(turn);
+    this.dot.position.copy(local);
+    this.dot.visible = this.reach < 0.5 * kDotPixels * size;
+
+    point(this.velocity, local, motion.velocity(t), this.mostSpeed, shown.velocity, kArrowPixels * size);
+    point(this.acceleration, local, motion.acceleration(t), this.mostAcceleration, shown.acceleration, kArrowPixels * size);
+    this.axes.visible = shown.axes && (motion.turns || motion.data.shape.kind !== "point");
+    this.axes.position.copy(local);
+    this.axes.quaternion.copy(turn);
+    this.axes.scale.setScalar(Math.max(1.7 * this.reach, kAxisPixels * size));
+
+    this.showWay(t, local, shown.trails);
+  }
+
+  private showWay(t: number, local: THREE.Vector3, isShown: boolean): void {
+    let low = 0;
+    let high = this.times.length - 1;
+    while (low < high) {
+      const middle = (low + high + 1) >> 1;
+      if (this.times[middle] <= t) low = middle;
+      else high = middle - 1;
+    }
+    this.way.visible = isShown && low > 0;
+    this.way.geometry.instanceCount = low;
+    this.tip.visible = isShown;
+    this.tip.geometry.setPositions([...this.points[low].toArray(), ...local.toArray()]);
+    this.wholeWay.visible = isShown;
+  }
+}
+
+const largest = (values: number[]): number => values.reduce((most, value) => Math.max(most, value), 0);
+
+function point(
+  arrow: THREE.Group,
+  at: THREE.Vector3,
+  direction: Vector,
+  most: number,
+  isShown: boolean,
+  longest: number,
+): void {
+  const size = length(direction);
+  arrow.visible = isShown && size > 1e-9 * most && most > 0;
+  if (!arrow.visible) return;
+  arrow.position.copy(at);
+  const unit = new THREE.Vector3(direction[0] / size, direction[1] / size, direction[2] / size);
+  arrow.quaternion.setFromUnitVectors(new THREE.Vector3(0, 1, 0), unit);
+  const drawn = (longest * size) / most;
+  // As thick on the screen whatever its length, as long as it is longer than thick.
+  const thickness = Math.min(longest, 2 * drawn);
+  arrow.scale.set(thickness, drawn, thickness);
+}

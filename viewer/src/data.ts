@@ -1,0 +1,92 @@
+/** What the program writes into the page: docs/formats/page.md. SI units; world frame. */
+
+export type Vector = [number, number, number];
+
+export interface Report {
+  title: string;
+  scene: string;
+  method: string;
+  status: "finished" | "stopped" | "failed" | "interrupted";
+  failure?: string;
+  start_time: number;
+  end_time: number;
+  impacts: Impact[];
+  events: { time: number; event: string; direction: string }[];
+  warnings: string[];
+}
+
+export interface Impact {
+  time: number;
+  body: string;
+  with: string;
+  kind: "hit" | "graze" | "rest" | "leave";
+  point: Vector;
+  velocity_before: Vector;
+  velocity_after: Vector;
+}
+
+export type BodyShape =
+  | { kind: "point" }
+  | { kind: "sphere"; radius: number }
+  | { kind: "box"; size: Vector }
+  | { kind: "soccer-ball"; radius: number }
+  /** Triangles: indices of three vertices each. */
+  | { kind: "mesh"; vertices: Vector[]; triangles: Vector[] };
+
+export interface BodyData {
+  name: string;
+  shape: BodyShape;
+  /** kg; null where there is none or where it changes. */
+  mass: number | null;
+  group: number;
+  /** The first component of p_WB, and of v_WB, in the group's state. */
+  position: number;
+  velocity: number;
+  /** The first component of the orientation, if the body turns, and how it is carried. */
+  orientation?: { kind: "quaternion" | "matrix"; component: number };
+  /** Principal inertia data: the matrix about the centre of mass in the body's frame, kg m^2. */
+  inertia?: [Vector, Vector, Vector];
+}
+
+export type ObstacleShape =
+  | { kind: "plane"; point: Vector; normal: Vector }
+  | { kind: "disk"; center: Vector; normal: Vector; radius: number }
+  | { kind: "rectangle"; center: Vector; normal: Vector; up: Vector; width: number; height: number }
+  | { kind: "triangle"; corners: [Vector, Vector, Vector] }
+  | { kind: "sphere"; center: Vector; radius: number }
+  /** `axes`: the columns of R_WB. */
+  | { kind: "box"; center: Vector; size: Vector; axes: [Vector, Vector, Vector] };
+
+export interface RunData {
+  report: Report;
+  bodies: BodyData[];
+  states: { name: string; group: number; component: number }[];
+  obstacles: { name: string; shape: ObstacleShape }[];
+  /** `pieces`: base64 of little-endian doubles, see `Track`. */
+  groups: { dimension: number; pieces: string }[];
+}
+
+/** What is wrong with a scene. Lines and columns count from 1, columns in bytes; 0: unknown. */
+export interface SceneError {
+  file: string;
+  line: number;
+  column: number;
+  message: string;
+  text: string;
+}
+
+export interface PageData {
+  trajet: string;
+  /** Whether a server makes the page anew when its scene changes. */
+  live: boolean;
+  runs?: RunData[];
+  error?: SceneError;
+}
+
+/** The numbers of a base64 text of little-endian doubles. */
+export function decodeDoubles(text: string): Float64Array {
+  const binary = atob(text);
+  const bytes = new Uint8Array(binary.length);
+  for (let i = 0; i < bytes.length; ++i) bytes[i] = binary.charCodeAt(i);
+  return new Float64Array(bytes.buffer);
+}

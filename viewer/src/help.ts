@@ -1,0 +1,26 @@
+import { element } from "./dom";
+
+const kKeys: [string, string][] = [
+  ["Space", "play or pause"],
+  ["N, P", "next, previous impact"],
+  ["← →", "a thousandth of the run; with Shift a hundredth"],
+  ["Home, End", "begin, end"],
+  ["+, −", "faster, slower"],
+  ["F", "follow the next body, or see the whole scene"],
+  ["T, V, A, B, I", "trail, velocity, acceleration, body axes, impacts"],
+  ["G, S", "other methods, side by side"],
+  ["D", "light or dark"],
+];
+
+export function helpDialog(): HTMLDialogElement {
+  const list = element("dl");
+  for (const [keys, meaning] of kKeys) list.append(element("dt", {}, keys), element("dd", {}, meaning));
+  return element(
+    "dialog",
+    { "aria-label": "Keys" },
+    element("h2", {}, "Keys"),
+    list,
+    element("p", {}, "Drag the picture to turn it, scroll to zoom. Drag over a plot to zoom in time, double-click to see all."),
+    element("form", { method: "dialog" }, element("button", {}, "Close")),
+  );
+}

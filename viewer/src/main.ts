@@ -1,0 +1,39 @@
+import "./style.css";
+import { App } from "./app";
+import type { PageData } from "./data";
+import { element } from "./dom";
+import { errorPage } from "./error_page";
+import { applyTheme, initialTheme } from "./theme";
+
+/** ms between two looks whether the scene has changed. */
+const kLivePeriod = 500;
+
+const page = document.getElementById("page")!;
+const data = JSON.parse(document.getElementById("trajet-data")!.textContent!) as PageData | null;
+applyTheme(initialTheme());
+if (data?.error) page.append(errorPage(data.error));
+else if (data?.runs) window.trajet = new App(page, data.runs);
+else page.append(element("main", { class: "error" }, element("p", {}, "This page holds no run.")));
+if (data?.live) void reloadWhenChanged();
+
+/** Asks the server, which answers with the number of the page's version. */
+async function reloadWhenChanged(): Promise<void> {
+  let own: string | null = null;
+  for (;;) {
+    try {
+      const version = await (await fetch("version", { cache: "no-store" })).text();
+      own ??= version;
+      if (version !== own) return location.reload();
+    } catch {
+      document.title = `${document.title.replace(/ \(stopped\)$/, "")} (stopped)`;
+    }
+    await new Promise((resume) => setTimeout(resume, kLivePeriod));
+  }
+}
+
+declare global {
+  interface Window {
+    /** For scripts and the browser's console. */
+    trajet?: App;
+  }
+}

@@ -1,0 +1,95 @@
+import type { Vector } from "./data";
+import type { BodyMotion } from "./motion";
+import type { Track } from "./track";
+
+const distance = (a: Vector, b: Vector): number => Math.hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
+
+/** Points on a body's way, in the order of time. */
+export interface Trail {
+  times: number[];
+  points: Vector[];
+}
+
+/** More straight lines for one piece tell the eye nothing. */
+const kMostLinesOfPiece = 256;
+
+/**
+ * The way of a body as straight lines that stay within about `tolerance` (m) of it.
+ *
+ * A chord over the time h leaves a curve of acceleration a by a h^2 / 8 at most. Pieces that are short beside the
+ * tolerance are passed over.
+ */
+export function trailOf(body: BodyMotion, tolerance: number): Trail {
+  const { track } = body;
+  const trail: Trail = { times: [track.begin], points: [body.position(track.begin, 0)] };
+  const add = (t: number, piece: number, isForced: boolean): void => {
+    const point = body.position(t, piece);
+    if (!isForced && distance(point, trail.points[trail.points.length - 1]) < tolerance) return;
+    trail.times.push(t);
+    trail.points.push(point);
+  };
+  for (let piece = 0; piece < track.count; ++piece) {
+    const begin = track.pieceBegin(piece);
+    const duration = track.pieceEnd(piece) - begin;
+    const second = (t: number): number => Math.hypot(...track.vector(piece, body.data.position, t, 2));
+    const bend =
+      track.degree(piece) < 2 ? 0 : Math.max(...[0, 0.25, 0.5, 0.75, 1].map((part) => second(begin + part * duration)));
+    const lines = Math.min(kMostLinesOfPiece, Math.max(1, Math.ceil(duration * Math.sqrt(bend / (8 * tolerance)))));
+    const turns = piece + 1 === track.count || jumps(track, piece, body.data.velocity, 3);
+    for (let i = 1; i <= lines; ++i) add(begin + (duration * i) / lines, piece, i === lines && turns);
+  }
+  return trail;
+}
+
+/** Whether one of `count` components from `first` on jumps from a piece to the next, by more than rounding. */
+export function jumps(track: Track, piece: number, first: number, count: number): boolean {
+  if (piece + 1 >= track.count) return false;
+  const t = track.pieceEnd(piece);
+  for (let i = first; i < first + count; ++i) {
+    const before = track.value(piece, i, t);
+    const after = track.value(piece + 1, i, t);
+    if (Math.abs(after - before) > 1e-6 * (Math.abs(before) + Math.abs(after)) + 1e-9) return true;
+  }
+  return false;
+}
+
+/** The pieces behind which some component of a track jumps: impacts and events that set something. */
+export function jumpsOf(track: Track): number[] {
+  const pieces: number[] = [];
+  for (let piece = 0; piece + 1 < track.count; ++piece)
+    if (jumps(track, piece, 0, track.dimension)) pieces.push(piece);
+  return pieces;
+}
+
+/** Beyond so many jumps in one picture they are not drawn one by one. */
+const kMostJumps = 400;
+
+/**
+ * The times at which to evaluate a curve between `from` and `to`, with the piece to take: `count` equal steps, and both
+ * sides of every jump, so that it shows as the vertical line that it is.
+ */
+export function samplingTimes(
+  track: Track,
+  jumpPieces: readonly number[],
+  from: number,
+  to: number,
+  count: number,
+): { t: number; piece: number }[] {
+  const begin = Math.max(from, track.begin);
+  const end = Math.min(to, track.end);
+  if (!(end > begin)) return [];
+  const samples: { t: number; piece: number }[] = [];
+  const visible = jumpPieces.filter((piece) => track.pieceEnd(piece) > begin && track.pieceEnd(piece) < end);
+  const drawn = visible.length > kMostJumps ? [] : visible;
+  let next = 0;
+  for (let i = 0; i <= count; ++i) {
+    const t = i === count ? end : begin + ((end - begin) * i) / count;
+    for (; next < drawn.length && track.pieceEnd(drawn[next]) <= t; ++next)
+      samples.push(
+        { t: track.pieceEnd(drawn[next]), piece: drawn[next] },
+        { t: track.pieceEnd(drawn[next]), piece: drawn[next] + 1 },
+      );
+    samples.push({ t, piece: track.pieceAt(t) });
+  }
+  return samples;
+}

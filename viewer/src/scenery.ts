@@ -1,0 +1,159 @@
+import * as THREE from "three";
+import type { ObstacleShape, RunData, Vector } from "./data";
+import { number, roundSpacing } from "./format";
+import type { LabelSpec } from "./labels";
+import { vector } from "./shapes";
+import { cssColor } from "./theme";
+import type { ViewFrame } from "./view_frame";
+
+/** A plane with a grid on it, and what its squares measure. */
+interface Ground {
+  point: THREE.Vector3;
+  normal: THREE.Vector3;
+  isSolid: boolean;
+}
+
+/** What does not move: obstacles, and a grid that gives the scale. */
+export class Scenery {
+  readonly group = new THREE.Group();
+  readonly labels: LabelSpec[] = [];
+  /** m; the side of a square of the grid. */
+  readonly spacing: number;
+  private readonly surface: THREE.MeshStandardMaterial;
+  private readonly ground: THREE.MeshBasicMaterial;
+  private readonly edges: THREE.LineBasicMaterial;
+  private readonly lines: THREE.LineBasicMaterial;
+
+  constructor(
+    private readonly frame: ViewFrame,
+    obstacles: RunData["obstacles"],
+  ) {
+    const size = frame.box.getSize(new THREE.Vector3());
+    this.spacing = roundSpacing(Math.max(size.x, size.y, size.z) / 10);
+    const offset = { polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1 };
+    this.surface = new THREE.MeshStandardMaterial({ side: THREE.DoubleSide, roughness: 0.85, ...offset });
+    this.surface.transparent = true;
+    this.surface.opacity = 0.8;
+    this.ground = new THREE.MeshBasicMaterial({
+      side: THREE.DoubleSide,
+      transparent: true,
+      opacity: 0.5,
+      depthWrite: false,
+      ...offset,
+    });
+    this.edges = new THREE.LineBasicMaterial();
+    this.lines = new THREE.LineBasicMaterial({ transparent: true, opacity: 0.9 });
+
+    const planes: Ground[] = [];
+    for (const { name, shape } of obstacles) {
+      if (shape.kind === "plane") planes.push({ point: vector(shape.point), normal: vector(shape.normal), isSolid: true });
+      else this.addObstacle(name, shape);
+    }
+    // Without a plane the grid lies beneath everything, as a scale only.
+    if (planes.length === 0) {
+      const middle = frame.box.getCenter(new THREE.Vector3());
+      planes.push({
+        point: new THREE.Vector3(middle.x, middle.y, frame.box.min.z),
+        normal: new THREE.Vector3(0, 0, 1),
+        isSolid: false,
+      });
+    }
+    planes.forEach((plane, index) => this.addGround(plane, index === 0));
+  }
+
+  applyTheme(): void {
+    this.surface.color.set(cssColor("--obstacle"));
+    this.edges.color.set(cssColor("--obstacle-edge"));
+    this.ground.color.set(cssColor("--ground"));
+    this.lines.color.set(cssColor("--grid"));
+  }
+
+  private addObstacle(name: string, shape: Exclude<ObstacleShape, { kind: "plane" }>): void {
+    const geometry = obstacleGeometry(shape);
+    const { scale } = this.frame;
+    const mesh = new THREE.Mesh(geometry, this.surface);
+    mesh.scale.setScalar(scale);
+    const center: Vector = shape.kind === "triangle" ? shape.corners[0] : shape.center;
+    mesh.position.copy(this.frame.toView(center));
+    const outline = new THREE.LineSegments(new THREE.EdgesGeometry(geometry, 20), this.edges);
+    mesh.add(outline);
+    mesh.name = name;
+    this.group.add(mesh);
+    geometry.computeBoundingBox();
+    const top = geometry.boundingBox!.max.z * scale;
+    this.labels.push({
+      at: mesh.position.clone().add(new THREE.Vector3(0, 0, top)),
+      text: name,
+      className: "label-obstacle",
+      priority: 1,
+    });
+  }
+
+  /** A rectangle of whole squares under the picture, with numbers along two sides if `isScale`. */
+  private addGround({ point, normal, isSolid }: Ground, isScale: boolean): void {
+    const n = normal.clone().normalize();
+    const isLevel = Math.abs(n.z) > 0.999;
+    const u = isLevel ? new THREE.Vector3(1, 0, 0) : new THREE.Vector3(-n.y, n.x, 0).normalize();
+    const v = n.clone().cross(u);
+    // The grid's lines pass through the foot of the world's origin; (0, 0) is there.
+    const origin = n.clone().multiplyScalar(point.dot(n));
+    const range = (axis: THREE.Vector3): [number, number] => {
+      const { min, max } = this.frame.box;
+      let [low, high] = [Infinity, -Infinity];
+      for (let corner = 0; corner < 8; ++corner) {
+        const p = new THREE.Vector3(corner & 1 ? min.x : max.x, corner & 2 ? min.y : max.y, corner & 4 ? min.z : max.z);
+        const value = p.sub(origin).dot(axis);
+        [low, high] = [Math.min(low, value), Math.max(high, value)];
+      }
+      return [Math.floor(low / this.spacing - 0.5), Math.ceil(high / this.spacing + 0.5)];
+    };
+    const [u0, u1] = range(u);
+    const [v0, v1] = range(v);
+    const at = (i: number, j: number): THREE.Vector3 => {
+      const p = origin.clone().addScaledVector(u, i * this.spacing).addScaledVector(v, j * this.spacing);
+      return this.frame.toView([p.x, p.y, p.z]);
+    };
+    const ends: THREE.Vector3[] = [];
+    for (let i = u0; i <= u1; ++i) ends.push(at(i, v0), at(i, v1));
+    for (let j = v0; j <= v1; ++j) ends.push(at(u0, j), at(u1, j));
+    this.group.add(new THREE.LineSegments(new THREE.BufferGeometry().setFromPoints(ends), this.lines));
+    if (isSolid) {
+      const corners = [at(u0, v0), at(u1, v0), at(u1, v1), at(u0, v0), at(u1, v1), at(u0, v1)];
+      this.group.add(new THREE.Mesh(new THREE.BufferGeometry().setFromPoints(corners), this.ground));
+    }
+    if (!isScale) return;
+    const label = (i: number, j: number, value: number, unit: string): void => {
+      const text = `${number(value * this.spacing, 6)}${unit}`;
+      this.labels.push({ at: at(i, j), text, className: "label-scale", priority: 0 });
+    };
+    for (let i = u0; i <= u1; i += 2) label(i, v0, i, i + 2 > u1 ? " m" : "");
+    for (let j = v0 + 2; j <= v1; j += 2) label(u1, j, j, j + 2 > v1 ? " m" : "");
+  }
+}
+
+/** An obstacle about its centre (a triangle about its first corner), in metres. */
+function obstacleGeometry(shape: Exclude<ObstacleShape, { kind: "plane" }>): THREE.BufferGeometry {
+  switch (shape.kind) {
+    case "sphere":
+      return new THREE.SphereGeometry(shape.radius, 48, 32);
+    case "disk": {
+      const toNormal = new THREE.Quaternion().setFromUnitVectors(new THREE.Vector3(0, 0, 1), vector(shape.normal));
+      return new THREE.CircleGeometry(shape.radius, 64).applyQuaternion(toNormal);
+    }
+    case "rectangle": {
+      const [normal, up] = [vector(shape.normal), vector(shape.up)];
+      const axes = new THREE.Matrix4().makeBasis(up.clone().cross(normal), up, normal);
+      return new THREE.PlaneGeometry(shape.width, shape.height).applyMatrix4(axes);
+    }
+    case "triangle": {
+      const [a, b, c] = shape.corners.map(vector);
+      const geometry = new THREE.BufferGeometry().setFromPoints([new THREE.Vector3(), b.sub(a), c.sub(a)]);
+      geometry.computeVertexNormals();
+      return geometry;
+    }
+    case "box": {
+      const [x, y, z] = shape.axes.map(vector);
+      return new THREE.BoxGeometry(...shape.size).applyMatrix4(new THREE.Matrix4().makeBasis(x, y, z));
+    }
+  }
+}

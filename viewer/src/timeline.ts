@@ -1,0 +1,105 @@
+import { type Clock, neighbour, speedsAround } from "./clock";
+import type { Impact } from "./data";
+import { element, iconButton, kIcons, setIcon } from "./dom";
+import * as format from "./format";
+
+/** The bar at the bottom: play, step from impact to impact, scrub. */
+export class Timeline {
+  readonly root: HTMLElement;
+  private readonly playButton: HTMLButtonElement;
+  private readonly slider: HTMLInputElement;
+  private readonly readout: HTMLOutputElement;
+  private readonly speed: HTMLSelectElement;
+
+  /** `changed` is called whenever the user has changed the clock. */
+  constructor(
+    private readonly clock: Clock,
+    private readonly impacts: readonly Impact[],
+    private readonly changed: () => void,
+  ) {
+    this.playButton = iconButton("Play", "space", kIcons.play, () => this.toggle());
+    this.slider = element("input", {
+      type: "range",
+      min: "0",
+      max: "1",
+      step: "any",
+      "aria-label": "Time",
+    });
+    this.slider.addEventListener("input", () => {
+      this.clock.isPlaying = false;
+      this.seek(this.clock.begin + Number(this.slider.value) * this.clock.duration);
+    });
+    const ticks = element("div", { class: "ticks", "aria-hidden": "true" });
+    for (const impact of impacts.slice(0, 500)) {
+      const part = (impact.time - clock.begin) / (clock.duration || 1);
+      if (part < 0 || part > 1) continue;
+      const tick = element("i");
+      tick.style.left = `calc(var(--thumb) / 2 + ${part} * (100% - var(--thumb)))`;
+      ticks.append(tick);
+    }
+    this.readout = element("output", { class: "time", "aria-live": "off" });
+    this.speed = element("select", { "aria-label": "Speed", title: "Speed (− and +)" });
+    for (const speed of speedsAround(clock.speed))
+      this.speed.append(element("option", { value: String(speed) }, `${format.number(speed)}×`));
+    this.speed.value = String(clock.speed);
+    this.speed.addEventListener("change", () => (this.clock.speed = Number(this.speed.value)));
+    const steps =
+      impacts.length > 0
+        ? [
+            iconButton("Previous impact", "P", kIcons.previous, () => this.step(-1)),
+            iconButton("Next impact", "N", kIcons.next, () => this.step(1)),
+          ]
+        : [];
+    this.root = element(
+      "div",
+      { class: "timeline", role: "group", "aria-label": "Time" },
+      this.playButton,
+      ...steps,
+      element("div", { class: "scrub" }, this.slider, ticks),
+      this.readout,
+      this.speed,
+    );
+  }
+
+  toggle(): void {
+    this.clock.toggle();
+    this.changed();
+  }
+
+  seek(t: number): void {
+    this.clock.seek(t);
+    this.changed();
+  }
+
+  /** To the impact before or behind the time that is shown. */
+  step(direction: 1 | -1): void {
+    const t = neighbour(this.impacts.map((impact) => impact.time), this.clock.time, direction);
+    this.clock.isPlaying = false;
+    if (t !== null) this.seek(t);
+    else this.changed();
+  }
+
+  changeSpeed(direction: 1 | -1): void {
+    const index = this.speed.selectedIndex + direction;
+    if (index < 0 || index >= this.speed.options.length) return;
+    this.speed.selectedIndex = index;
+    this.clock.speed = Number(this.speed.value);
+  }
+
+  update(): void {
+    const { clock } = this;
+    const name = clock.isPlaying ? "Pause" : "Play";
+    if (this.playButton.getAttribute("aria-label") !== name) {
+      this.playButton.setAttribute("aria-label", name);
+      this.playButton.title = `${name} (space)`;
+      setIcon(this.playButton, clock.isPlaying ? kIcons.pause : kIcons.play);
+    }
+    const part = (clock.time - clock.begin) / (clock.duration || 1);
+    if (Number(this.slider.value) !== part) this.slider.value = String(part);
+    // At an impact the time is exact, elsewhere as fine as one can see.
+    const isImpact = this.impacts.some((impact) => impact.time === clock.time);
+    const text = isImpact ? format.exactTime(clock.time) : `${format.time(clock.time, clock.duration)} s`;
+    this.readout.textContent = text;
+    this.slider.setAttribute("aria-valuetext", text);
+  }
+}

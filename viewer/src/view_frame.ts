@@ -1,0 +1,83 @@
+import * as THREE from "three";
+import type { ObstacleShape, Vector } from "./data";
+import type { BodyMotion, Run } from "./motion";
+import { trailOf } from "./sampling";
+import { reach, vector } from "./shapes";
+
+/** The scene is drawn about this large, whatever its size in metres, so that single precision is enough. */
+export const kViewSize = 10;
+
+/** From metres in the world to the units of the drawing: p -> (p - center) * scale. */
+export class ViewFrame {
+  readonly scale: number;
+  readonly center: Vector;
+
+  constructor(readonly box: THREE.Box3) {
+    const center = box.getCenter(new THREE.Vector3());
+    this.center = [center.x, center.y, center.z];
+    const size = box.getSize(new THREE.Vector3());
+    this.scale = kViewSize / (Math.max(size.x, size.y, size.z) || 1);
+  }
+
+  toView(p: Vector): THREE.Vector3 {
+    return new THREE.Vector3(
+      (p[0] - this.center[0]) * this.scale,
+      (p[1] - this.center[1]) * this.scale,
+      (p[2] - this.center[2]) * this.scale,
+    );
+  }
+}
+
+function obstacleBox(shape: ObstacleShape): THREE.Box3 | null {
+  switch (shape.kind) {
+    case "plane":
+      return null;
+    case "triangle":
+      return new THREE.Box3().setFromPoints(shape.corners.map(vector));
+    case "rectangle": {
+      const reach = 0.5 * Math.hypot(shape.width, shape.height);
+      return ball(shape.center, reach);
+    }
+    case "box":
+      return ball(shape.center, 0.5 * Math.hypot(...shape.size));
+    default:
+      return ball(shape.center, shape.radius);
+  }
+}
+
+const ball = (center: Vector, radius: number): THREE.Box3 =>
+  new THREE.Box3().setFromCenterAndSize(vector(center), new THREE.Vector3(2, 2, 2).multiplyScalar(radius));
+
+/** Obstacles that are this much larger than the motion do not set the picture's size. */
+const kLargestObstacle = 3;
+
+/** What the picture shall hold, in metres: all ways, and the obstacles near them. */
+export function sceneBox(runs: readonly Run[]): THREE.Box3 {
+  const box = new THREE.Box3();
+  for (const run of runs)
+    for (const body of run.bodies) {
+      const coarse = trailOf(body, 0.01 * roughSize(body, run));
+      const extra = reach(body.data.shape);
+      for (const point of coarse.points) box.union(ball(point, extra));
+    }
+  if (box.isEmpty()) box.set(new THREE.Vector3(-1, -1, -1), new THREE.Vector3(1, 1, 1));
+  const size = box.getSize(new THREE.Vector3());
+  const largest = Math.max(size.x, size.y, size.z);
+  for (const obstacle of runs[0]?.data.obstacles ?? []) {
+    const own = obstacleBox(obstacle.shape);
+    if (!own) continue;
+    const ownSize = own.getSize(new THREE.Vector3());
+    if (largest === 0 || Math.max(ownSize.x, ownSize.y, ownSize.z) <= kLargestObstacle * largest) box.union(own);
+  }
+  // A body at rest needs a picture of some size too.
+  if (box.getSize(new THREE.Vector3()).length() === 0) box.expandByScalar(1);
+  return box;
+}
+
+/** The span of a body's way as a few hundred points tell it. */
+function roughSize(body: BodyMotion, run: Run): number {
+  const box = new THREE.Box3();
+  for (let i = 0; i <= 300; ++i) box.expandByPoint(vector(body.position(run.begin + ((run.end - run.begin) * i) / 300)));
+  const size = box.getSize(new THREE.Vector3());
+  return Math.max(size.x, size.y, size.z) || 1;
+}
