@@ -15,7 +15,7 @@ LINK = re.compile(r"\]\(([^)\s]+)\)")
 CITATION = re.compile(r"\[([A-Z][A-Za-z]+\d{4}[a-z]?)(?:[,;][^\]]*)?\]")
 ENTRY = re.compile(r"^@\w+\{\s*([^,\s]+)", re.MULTILINE)
 MACHINE_PATH = re.compile(r"(?<![\w.])/(?:home|root|work|tmp|Users)/")
-SKIPPED_FOLDERS = {".git", "build", "__pycache__"}
+SKIPPED_FOLDERS = {".git", "build", "__pycache__", "node_modules"}
 TEXT_SUFFIXES = {".md", ".hpp", ".cpp", ".py", ".toml", ".txt", ".cmake", ".in", ".json", ".bib", ""}
 
 

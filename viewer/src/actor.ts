@@ -152,7 +152,7 @@ export class Actor {
 
     point(this.velocity, local, motion.velocity(t), this.mostSpeed, shown.velocity, kArrowPixels * size);
     point(this.acceleration, local, motion.acceleration(t), this.mostAcceleration, shown.acceleration, kArrowPixels * size);
-    this.axes.visible = shown.axes && (motion.turns || motion.data.shape.kind !== "point");
+    this.axes.visible = shown.axes && motion.turns;
     this.axes.position.copy(local);
     this.axes.quaternion.copy(turn);
     this.axes.scale.setScalar(Math.max(1.7 * this.reach, kAxisPixels * size));

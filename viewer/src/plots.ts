@@ -224,6 +224,8 @@ export class Plots {
       width: this.container.clientWidth || 320,
       height: kHeight,
       legend: { show: false },
+      padding: [6, 14, 0, 0],
+      pxAlign: false,
       scales: { x: { time: false, min: this.from, max: this.to }, y: { range: readableRange } },
       axes: [
         { ...axis, values: (_plot, splits) => splits.map((t, i) => tick(t) + (i === splits.length - 1 ? " s" : "")) },
@@ -237,7 +239,7 @@ export class Plots {
           width: dash ? 1.25 : 1.75,
           dash,
           points: { show: false },
-          spanGaps: false,
+          pxAlign: 0,
         })),
       ],
       cursor: {

@@ -2,6 +2,7 @@ import * as THREE from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import { Actor, dots, type Visibility } from "./actor";
 import type { Impact } from "./data";
+import { element } from "./dom";
 import * as format from "./format";
 import { Labels, type LabelSpec } from "./labels";
 import type { Run } from "./motion";
@@ -31,6 +32,7 @@ export class Stage {
   private readonly frame: ViewFrame;
   private readonly scenery: Scenery;
   private readonly labels: Labels;
+  private readonly scale: HTMLElement;
   private readonly runGroups: THREE.Group[] = [];
   private readonly actors: Actor[][] = [];
   private followed: Actor | null = null;
@@ -50,11 +52,11 @@ export class Stage {
     domElement.setAttribute("role", "img");
     domElement.setAttribute("aria-label", "The motion in space. Drag to turn, scroll to zoom.");
     container.append(domElement);
-    const layer = document.createElement("div");
-    layer.className = "labels";
-    layer.setAttribute("aria-hidden", "true");
+    const layer = element("div", { class: "labels", "aria-hidden": "true" });
     container.append(layer);
     this.labels = new Labels(layer);
+    this.scale = element("span", { class: "scale" });
+    container.append(this.scale);
 
     this.frame = new ViewFrame(sceneBox(runs));
     this.time = runs[0].begin;
@@ -67,15 +69,11 @@ export class Stage {
     this.scene.add(sun);
     this.scenery = new Scenery(this.frame, runs[0].data.obstacles);
     this.scene.add(this.scenery.group);
+    this.scale.textContent = `squares of ${format.number(this.scenery.spacing)} m`;
     runs.forEach((run, index) => this.addRun(run, index));
     this.applyTheme();
     this.resize();
     this.showAll();
-  }
-
-  /** m; what the side of a square of the grid measures. */
-  get gridSpacing(): number {
-    return this.scenery.spacing;
   }
 
   private addRun(run: Run, index: number): void {
