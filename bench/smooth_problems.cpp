@@ -47,8 +47,8 @@ Eigen::Matrix<double, 6, 1> reference_end() {
     return Problem::exact(Problem::end_time());
 }
 
-constexpr double kTolerances[] = {1e-2,  1e-3,  1e-4,  1e-5,  1e-6,  1e-7,  1e-8, 1e-9,
-                                  1e-10, 1e-11, 1e-12, 1e-13, 1e-14, 1e-15, 1e-16};
+constexpr double kTolerances[] = {1e0,  1e-1,  1e-2,  1e-3,  1e-4,  1e-5,  1e-6,  1e-7, 1e-8,
+                                  1e-9, 1e-10, 1e-11, 1e-12, 1e-13, 1e-14, 1e-15, 1e-16};
 constexpr int kSteps[] = {5, 10, 20, 40, 80, 160, 320, 640, 1280};
 
 template <class Problem, class Method>
@@ -66,6 +66,7 @@ void add_laws(const char* problem) {
   for (const double tolerance : kTolerances) {
     const StepOptions options{.rtol = tolerance, .atol = tolerance};
     add_law<Problem, Taylor>(problem, labelled("taylor", tolerance), options);
+    add_law<Problem, Dop853>(problem, labelled("dop853", tolerance), options);
     if (tolerance >= 1e-13) add_law<Problem, Dopri5>(problem, labelled("dopri5", tolerance), options);
   }
   for (const int steps : kSteps)
@@ -115,6 +116,7 @@ void add_scenes(const char* problem, const char* acceleration) {
   for (const double tolerance : kTolerances) {
     const StepOptions options{.rtol = tolerance, .atol = tolerance};
     add_scene<Problem>(problem, acceleration, "taylor", labelled("taylor", tolerance), options);
+    add_scene<Problem>(problem, acceleration, "dop853", labelled("dop853", tolerance), options);
     if (tolerance >= 1e-13) add_scene<Problem>(problem, acceleration, "dopri5", labelled("dopri5", tolerance), options);
   }
   for (const int steps : kSteps)

@@ -6,6 +6,7 @@
 
 #include "trajet/ode/runge_kutta.hpp"
 #include "trajet/ode/system_rate.hpp"
+#include "trajet/ode/tableau_dop853.hpp"
 #include "trajet/ode/taylor.hpp"
 
 namespace trajet {
@@ -60,6 +61,7 @@ std::span<const MethodInfo> methods() {
       runge_kutta<MidpointTableau>("midpoint", {"rk2"}, "course: Runge-Kutta 2 (F29)", "the rate at its middle"),
       runge_kutta<Rk4Tableau>("rk4", {}, "course: Runge-Kutta 4, SEDRK4t0 (F38)", "Kutta's classical method"),
       runge_kutta<Dopri5Tableau>("dopri5", {"ode45"}, "MATLAB: ode45 (F59)", "Dormand and Prince's pair 5(4)"),
+      runge_kutta<Dop853Tableau>("dop853", {}, "", "Dormand and Prince's method 8(5,3)"),
       series("taylor", {"series"}, "course: Taylor series (F10)", "exact derivatives; order chosen from the tolerance"),
   };
   return table;

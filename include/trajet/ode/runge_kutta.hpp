@@ -37,7 +37,8 @@ class RungeKuttaBase {
   /// its leading term, for `midpoint` a term of the same power of the step.
   TRAJET_FLATTEN void fill_segment(Segment<Dim>& segment) {
     evaluate_end();
-    step_.fill(segment);
+    step_.fill(segment, rate_);
+    statistics_.law_evaluations += Method::kTableau.kDenseStages;
   }
 
  protected:
@@ -172,8 +173,7 @@ class AdaptiveRungeKutta : public RungeKuttaBase<Method, Rate, Dim> {
   }
 
  private:
-  // The estimate is the error of the companion of lower order: it behaves as h^(order + 1).
-  static constexpr int kErrorPower = std::min(Method::kOrder, Method::kCompanionOrder) + 1;
+  static constexpr int kErrorPower = error_power<Method>();
   // A limit this little farther than the step is reached in one: the alternative is a tiny last step.
   static constexpr double kStretch = 1.01;
 

@@ -27,7 +27,10 @@ class RungeKuttaStep {
   static constexpr auto& kTableau = Method::kTableau;
   static constexpr std::size_t kStages = kTableau.kStages;
   static constexpr std::size_t kLast = kStages - 1;
-  static_assert(kTableau.a[kLast] == kTableau.b && kTableau.c[kLast] == Fraction(1), "the last stage is the end rate");
+  static constexpr std::size_t kAllStages = kStages + kTableau.kDenseStages;
+  static_assert(std::equal(kTableau.b.begin(), kTableau.b.end(), kTableau.a[kLast].begin()) &&
+                    kTableau.c[kLast].value() == 1.0,
+                "the last stage is the end rate");
 
  public:
   using State = Eigen::Matrix<double, Dim, 1>;
@@ -93,13 +96,11 @@ class RungeKuttaStep {
   /// The largest component of the error estimate over its tolerance atol + rtol |q|, |q| the larger one of both ends;
   /// NaN if any is. `atol` > 0.
   TRAJET_INLINE double error_norm(double atol, double rtol) const {
-    return largest_component([&](Eigen::Index b, Block & x) __attribute__((always_inline)) {
-      Block start = q0_[b], end = q1_[b], error{};
-      Vector::take_magnitude(start);
-      Vector::take_magnitude(end);
-      add_weighted<ErrorWeights, kStages>(t1_ - t0_, b, error);
-      x = error / (atol + rtol * (start > end ? start : end));
-    });
+    const double first = difference_norm<ErrorWeights>(atol, rtol);
+    if constexpr (kHasSecondCompanion<Method>)
+      return of_both_companions(first, difference_norm<SecondErrorWeights>(atol, rtol));
+    else
+      return first;
   }
 
   /// The largest component at the end over the tolerance there: of the state, of the rate after evaluate_end(), and of
@@ -120,9 +121,15 @@ class RungeKuttaStep {
     return end_norm(atol, rtol, [&](Eigen::Index b, Block& x) { x = k_[0][b] - k_[kLast][b]; });
   }
 
-  /// The step as polynomials, with the error estimate and rounding as bound, after evaluate_end().
-  TRAJET_INLINE void fill(Segment<Dim>& segment) const {
+  /// The step as polynomials, with the error estimate and rounding as bound, after evaluate_end(). Evaluates the law
+  /// for the stages that only the dense output needs.
+  template <class Rate>
+  TRAJET_INLINE void fill(Segment<Dim>& segment, Rate& rate) {
     constexpr int kDegree = kTableau.kDenseDegree;
+    [&]<std::size_t... S>(std::index_sequence<S...>) __attribute__((always_inline)) {
+      (compute_dense_stage<kStages + S>(rate), ...);
+    }
+    (std::make_index_sequence<kTableau.kDenseStages>());
     segment.resize(static_cast<int>(end_.size()), kDegree);
     segment.set_interval(t0_, t1_);
     const double h = t1_ - t0_;
@@ -130,19 +137,15 @@ class RungeKuttaStep {
     for_each_block([&](Eigen::Index b) __attribute__((always_inline)) {
       double* coefficients = segment.coefficients().data();
       Vector::write(q0_[b], coefficients, b);
+      std::array<Block, kDegree> dense{};
       double scale = 1.0;  // h^(1 - power)
       [&]<int... P>(std::integer_sequence<int, P...>) __attribute__((always_inline)) {
-        ((write_power<P>(scale, b, coefficients += end_.size()), scale *= per_h), ...);
+        (add_weighted<DenseWeights<P>, kAllStages>(1.0, b, dense[P]), ...);
+        ((write_power<P>(dense, scale, b, coefficients += end_.size()), scale *= per_h), ...);
       }
       (std::make_integer_sequence<int, kDegree>());
-      Block start = q0_[b], end = q1_[b], bound{};
-      Vector::take_magnitude(start);
-      Vector::take_magnitude(end);
-      add_weighted<ErrorWeights, kStages>(h, b, bound);
-      Vector::take_magnitude(bound);
-      bound += kRounding * (start + end);
-      Vector::write(bound, segment.error_bound().data(), b);
     });
+    fill_error_bound(segment);
   }
 
  private:
@@ -158,6 +161,9 @@ class RungeKuttaStep {
   };
   struct ErrorWeights {
     static constexpr double value(std::size_t j) { return kTableau.b[j].value() - kTableau.companion[j].value(); }
+  };
+  struct SecondErrorWeights {
+    static constexpr double value(std::size_t j) { return kTableau.b[j].value() - Method::kSecondCompanion[j].value(); }
   };
   template <std::size_t Column>
   struct DenseWeights {
@@ -193,11 +199,62 @@ class RungeKuttaStep {
     });
   }
 
-  template <int Column>
-  TRAJET_INLINE void write_power(double scale, Eigen::Index b, double* coefficients) const {
+  /// Writes the coefficient of (t - t0)^(P + 1), where `dense` are the coefficients of the basis.
+  template <int P, std::size_t Degree>
+  TRAJET_INLINE static void write_power(const std::array<Block, Degree>& dense, double scale, Eigen::Index b,
+                                        double* coefficients) {
     Block sum{};
-    add_weighted<DenseWeights<Column>, kStages>(scale, b, sum);
+    if constexpr (requires { Method::kDenseBasis; }) {
+      [&]<std::size_t... F>(std::index_sequence<F...>) __attribute__((always_inline)) {
+        (add<Method::kDenseBasis[F][P] != 0>(Method::kDenseBasis[F][P], dense[F], sum), ...);
+      }
+      (std::make_index_sequence<Degree>());
+    } else {
+      sum = dense[P];
+    }
+    sum *= scale;
     Vector::write(sum, coefficients, b);
+  }
+
+  /// The difference to the companion, or both companions, plus rounding.
+  TRAJET_INLINE void fill_error_bound(Segment<Dim>& segment) {
+    const double h = t1_ - t0_;
+    double* const bound = segment.error_bound().data();
+    write_difference<ErrorWeights>(h, bound);
+    if constexpr (kHasSecondCompanion<Method>) {
+      write_difference<SecondErrorWeights>(h, q_stage_.data());
+      for (Eigen::Index i = 0; i < end_.size(); ++i) bound[i] = of_both_companions(bound[i], q_stage_[i]);
+    }
+    for (Eigen::Index i = 0; i < end_.size(); ++i)
+      bound[i] += kRounding * (std::abs(segment.coefficients()(i, 0)) + std::abs(end_[i]));
+  }
+  template <class Weights>
+  TRAJET_INLINE void write_difference(double h, double* components) const {
+    for_each_block([&](Eigen::Index b) __attribute__((always_inline)) {
+      Block difference{};
+      add_weighted<Weights, kStages>(h, b, difference);
+      Vector::take_magnitude(difference);
+      Vector::write(difference, components, b);
+    });
+  }
+
+  /// The norm of the difference to a companion over the tolerance.
+  template <class Weights>
+  TRAJET_INLINE double difference_norm(double atol, double rtol) const {
+    return largest_component([&](Eigen::Index b, Block & x) __attribute__((always_inline)) {
+      Block start = q0_[b], end = q1_[b], error{};
+      Vector::take_magnitude(start);
+      Vector::take_magnitude(end);
+      add_weighted<Weights, kStages>(t1_ - t0_, b, error);
+      x = error / (atol + rtol * (start > end ? start : end));
+    });
+  }
+
+  /// e1^2 / sqrt(e1^2 + (e2 / 10)^2) of magnitudes: at most e1.
+  TRAJET_INLINE static double of_both_companions(double first, double second) {
+    const double sum = first * first + 0.01 * (second * second);
+    if (!(sum > 0.0 && sum <= std::numeric_limits<double>::max())) return first;
+    return first * first / std::sqrt(sum);
   }
 
   template <class Rate>
@@ -237,6 +294,17 @@ class RungeKuttaStep {
     q1_.assign(q);
     for_each_block([&](Eigen::Index b) __attribute__((always_inline)) { Vector::write(q1_[b], end_.data(), b); });
     if constexpr (WithEndRate) evaluate(rate, t1_, q, k_[kLast], newest);
+  }
+
+  template <std::size_t S, class Rate>
+  TRAJET_INLINE void compute_dense_stage(Rate& rate) {
+    for_each_block([&](Eigen::Index b) __attribute__((always_inline)) {
+      Block q = q0_[b], sum{};
+      add_weighted<StageWeights<S>, S>(t1_ - t0_, b, sum);
+      q += sum;
+      Vector::write(q, q_stage_.data(), b);
+    });
+    evaluate(rate, t0_ + kTableau.c[S].value() * (t1_ - t0_), q_stage_, k_[S]);
   }
 
   template <std::size_t S, class Rate>
@@ -283,9 +351,9 @@ class RungeKuttaStep {
   double t1_ = 0.0;
   Vector q0_;
   Vector q1_;
-  std::array<Vector, kStages> k_;
+  std::array<Vector, kAllStages> k_;
   State end_;
-  State q_stage_;  // of states that are not packed
+  State q_stage_;  // where a stage is evaluated
 };
 
 }  // namespace trajet::detail

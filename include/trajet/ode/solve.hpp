@@ -6,6 +6,7 @@
 #include "trajet/ode/integrate.hpp"
 #include "trajet/ode/law_expansion.hpp"
 #include "trajet/ode/runge_kutta.hpp"
+#include "trajet/ode/tableau_dop853.hpp"
 #include "trajet/ode/taylor.hpp"
 #include "trajet/ode/trajectory.hpp"
 
@@ -25,6 +26,7 @@ using Euler = RungeKuttaMethod<EulerTableau>;
 using Midpoint = RungeKuttaMethod<MidpointTableau>;
 using Rk4 = RungeKuttaMethod<Rk4Tableau>;
 using Dopri5 = RungeKuttaMethod<Dopri5Tableau>;
+using Dop853 = RungeKuttaMethod<Dop853Tableau>;
 struct Taylor {
   template <int Dim, class Law>
   static auto make_stepper(Law law, int dimension, const StepOptions& options) {

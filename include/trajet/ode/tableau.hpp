@@ -20,6 +20,17 @@ struct Fraction {
   bool operator==(const Fraction&) const = default;
 };
 
+/// A coefficient that is no fraction, by the digits of its source.
+struct Decimal {
+  long double digits = 0.0L;
+
+  constexpr Decimal() = default;
+  constexpr Decimal(long double printed) : digits(printed) {}
+
+  constexpr double value() const { return static_cast<double>(digits); }
+  bool operator==(const Decimal&) const = default;
+};
+
 /// The coefficients of an explicit Runge-Kutta method with `Stages` stages and a dense output of degree `Degree`:
 ///
 ///     k_i    = g(t0 + c_i h, q0 + h sum_{j<i} a_ij k_j)
@@ -28,18 +39,39 @@ struct Fraction {
 ///     error  = h sum_i (b_i - companion_i) k_i
 ///
 /// The last stage is always the rate at the end of the step: its row of `a` is `b`. It is the next step's first stage,
-/// so that dense output and error estimate may use it at no cost. Source: [HairerNorsettWanner1993] II.1, II.4, II.6.
-template <int Stages, int Degree>
+/// so that dense output and error estimate may use it at no cost. `DenseStages` more stages may follow, which only the
+/// dense output needs. A method whose `kDenseBasis` names other functions than the powers of s, by their own powers,
+/// gives `dense` in that basis. Source: [HairerNorsettWanner1993] II.1, II.4, II.6.
+template <int Stages, int Degree, class Coefficient = Fraction, int DenseStages = 0>
 struct Tableau {
   static constexpr int kStages = Stages;
+  static constexpr int kDenseStages = DenseStages;
   static constexpr int kDenseDegree = Degree;
 
-  std::array<Fraction, Stages> c;
-  std::array<std::array<Fraction, Stages>, Stages> a;
-  std::array<Fraction, Stages> b;
-  std::array<Fraction, Stages> companion;
-  std::array<std::array<Fraction, Degree>, Stages> dense;
+  std::array<Coefficient, Stages + DenseStages> c;
+  std::array<std::array<Coefficient, Stages + DenseStages>, Stages + DenseStages> a;
+  std::array<Coefficient, Stages> b;
+  std::array<Coefficient, Stages> companion;
+  std::array<std::array<Coefficient, Degree>, Stages + DenseStages> dense;
 };
+
+/// Whether a method's error is estimated with two companions, the second of lower order: where both differences are of
+/// their leading powers, e1^2 / sqrt(e1^2 + (e2 / 10)^2) falls as fast as a method of order 8 needs
+/// ([HairerNorsettWanner1993] II.10).
+template <class Method>
+inline constexpr bool kHasSecondCompanion = requires {
+  Method::kSecondCompanion;
+};
+
+/// k: the error estimate of a step of length h behaves as h^k.
+template <class Method>
+constexpr int error_power() {
+  constexpr int first = (Method::kOrder < Method::kCompanionOrder ? Method::kOrder : Method::kCompanionOrder) + 1;
+  if constexpr (kHasSecondCompanion<Method>)
+    return 2 * first - (Method::kSecondCompanionOrder + 1);
+  else
+    return first;
+}
 
 /// Euler's method. Its companion is the trapezoid with the rate at the end: the difference is the leading local error.
 struct EulerTableau {
