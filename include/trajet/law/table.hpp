@@ -78,7 +78,8 @@ class Table {
 
 namespace detail {
 
-/// The smallest and the largest value that a number may have: of a Series its value counts, of a Pack all lanes.
+/// The smallest and the largest value that a number may have: of a Series or a Dual its value counts, of a Pack all
+/// lanes.
 struct Bounds {
   double lower;
   double upper;
@@ -92,6 +93,8 @@ Bounds bounds(const T& x) {
     return {x.lower(), x.upper()};
   } else if constexpr (requires { typename T::Coefficient; }) {
     return bounds(x[0]);
+  } else if constexpr (requires { x.value(); }) {
+    return {x.value(), x.value()};
   } else {
     std::array<double, T::size> lanes;
     x.store_unaligned(lanes.data());

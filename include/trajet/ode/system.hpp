@@ -16,14 +16,18 @@ class System {
   /// dq = g(q, t). `q` and `dq` hold `dimension()` numbers and do not overlap.
   virtual void rate(double t, const double* q, double* dq) const = 0;
 
+  /// The exact derivatives of g at (t, q): dg_dq(i, j) = d g_i / d q_j, (dimension x dimension), column-major, and
+  /// dg_dt(i) = d g_i / dt. What has no derivative gives one of its one-sided derivatives or zero.
+  virtual void jacobian(double t, const double* q, double* dg_dq, double* dg_dt) const = 0;
+
   /// The Taylor coefficients of the solution through (t, q) up to (time)^order.
   ///
   /// `coefficients` is (dimension x order+1), column-major: column k belongs to (time - t)^k; column 0 is q.
   virtual void expand(double t, const double* q, int order, double* coefficients) = 0;
 
-  /// Whether the last expansion stays the solution's up to `duration` (s, either sign) later: the time until the law takes
-  /// another branch (a comparison, abs, sign, min, max, floor, the next interval of a table), or `duration` if it does not.
-  /// The next expansion, if it starts there, takes the branch behind it.
+  /// Whether the last expansion stays the solution's up to `duration` (s, either sign) later: the time until the law
+  /// takes another branch (a comparison, abs, sign, min, max, floor, the next interval of a table), or `duration` if it
+  /// does not. The next expansion, if it starts there, takes the branch behind it.
   virtual double duration_until_branch(double duration) = 0;
 
   /// The degree in time of every solution if the law makes it a polynomial whatever the state, else a negative number.

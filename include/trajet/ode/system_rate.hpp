@@ -14,6 +14,9 @@ class SystemRate {
   void operator()(double t, const Eigen::VectorXd& q, Eigen::VectorXd& dq) const {
     system_->rate(t, q.data(), dq.data());
   }
+  void jacobian(double t, const Eigen::VectorXd& q, Eigen::MatrixXd& dg_dq, Eigen::VectorXd& dg_dt) const {
+    system_->jacobian(t, q.data(), dg_dq.data(), dg_dt.data());
+  }
 
  private:
   const System* system_;

@@ -1,8 +1,11 @@
 #pragma once
 
+#include <optional>
+
 #include "trajet/law/evaluate.hpp"
 #include "trajet/law/program.hpp"
 #include "trajet/law/program_expansion.hpp"
+#include "trajet/law/program_jacobian.hpp"
 #include "trajet/ode/system.hpp"
 
 namespace trajet {
@@ -16,6 +19,10 @@ class ProgramSystem : public System {
 
   int dimension() const override { return expansion_.dimension(); }
   void rate(double t, const double* q, double* dq) const override { evaluator_(t, q, dq); }
+  void jacobian(double t, const double* q, double* dg_dq, double* dg_dt) const override {
+    if (!jacobian_) jacobian_.emplace(expansion_.program());
+    (*jacobian_)(t, q, dg_dq, dg_dt);
+  }
   void expand(double t, const double* q, int order, double* coefficients) override {
     expansion_.expand(t, q, order, coefficients);
   }
@@ -24,7 +31,8 @@ class ProgramSystem : public System {
 
  private:
   ProgramExpansion expansion_;
-  mutable Evaluator<double> evaluator_;  // its slots are scratch
+  mutable Evaluator<double> evaluator_;              // its slots are scratch
+  mutable std::optional<ProgramJacobian> jacobian_;  // made when first asked for: most methods never do
 };
 
 }  // namespace trajet
