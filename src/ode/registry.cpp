@@ -4,10 +4,14 @@
 #include <array>
 #include <utility>
 
+#include "trajet/ode/implicit_stepper.hpp"
+#include "trajet/ode/rosenbrock.hpp"
 #include "trajet/ode/runge_kutta.hpp"
 #include "trajet/ode/system_rate.hpp"
 #include "trajet/ode/tableau_dop853.hpp"
 #include "trajet/ode/taylor.hpp"
+#include "trajet/ode/tr_bdf2.hpp"
+#include "trajet/ode/trapezoid.hpp"
 
 namespace trajet {
 namespace {
@@ -35,6 +39,12 @@ std::unique_ptr<AnyStepper> make_runge_kutta(System& system, const StepOptions& 
   return std::make_unique<WrappedStepper<S>>(S(SystemRate(system), options));
 }
 
+template <class Method>
+std::unique_ptr<AnyStepper> make_implicit(System& system, const StepOptions& options) {
+  using S = ImplicitStepper<Method, SystemRate, Eigen::Dynamic>;
+  return std::make_unique<WrappedStepper<S>>(S(SystemRate(system), options));
+}
+
 std::unique_ptr<AnyStepper> make_taylor(System& system, const StepOptions& options) {
   using S = TaylorStepper<SystemExpansion>;
   return std::make_unique<WrappedStepper<S>>(S(SystemExpansion(system), options));
@@ -47,6 +57,12 @@ MethodInfo runge_kutta(std::string_view name, Aliases aliases, std::string_view 
   const StepControl control = Method::kErrorControlled ? StepControl::adaptive : StepControl::fixed;
   return {name,    std::move(aliases), Method::kOrder, Method::kDenseOrder,
           control, known_as,           summary,        make_runge_kutta<Method>};
+}
+
+template <class Method>
+MethodInfo implicit(std::string_view name, Aliases aliases, std::string_view known_as, std::string_view summary) {
+  return {name,    std::move(aliases),   Method::kOrder, Method::kDenseOrder, StepControl::adaptive, known_as,
+          summary, make_implicit<Method>};
 }
 
 MethodInfo series(std::string_view name, Aliases aliases, std::string_view known_as, std::string_view summary) {
@@ -62,6 +78,12 @@ std::span<const MethodInfo> methods() {
       runge_kutta<Rk4Tableau>("rk4", {}, "course: Runge-Kutta 4, SEDRK4t0 (F38)", "Kutta's classical method"),
       runge_kutta<Dopri5Tableau>("dopri5", {"ode45"}, "MATLAB: ode45 (F59)", "Dormand and Prince's pair 5(4)"),
       runge_kutta<Dop853Tableau>("dop853", {}, "", "Dormand and Prince's method 8(5,3)"),
+      implicit<RosenbrockMethod<Rosenbrock23Tableau>>("rosenbrock23", {"ode23s"}, "MATLAB: ode23s (F59)",
+                                                      "stiff: Shampine and Reichelt's Rosenbrock pair 2(3)"),
+      implicit<TrapezoidFormula>("trapezoid", {"ode23t"}, "MATLAB: ode23t (F59)",
+                                 "stiff: trapezoidal rule, no damping"),
+      implicit<TrBdf2Formula>("tr-bdf2", {"ode23tb"}, "MATLAB: ode23tb (F59)", "stiff: trapezoidal rule, then BDF2"),
+      implicit<RosenbrockMethod<Rodas5pTableau>>("rodas5p", {}, "", "stiff: Steinebach's Rosenbrock pair 5(4)"),
       series("taylor", {"series"}, "course: Taylor series (F10)", "exact derivatives; order chosen from the tolerance"),
   };
   return table;
