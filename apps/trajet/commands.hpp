@@ -25,9 +25,11 @@ int exit_code(RunStatus status);
 struct RunArguments {
   std::string scene;
   SceneOverrides overrides;
-  std::string json;  ///< file name, `-` for standard output, empty for none
-  std::string csv;   ///< likewise
-  std::string html;  ///< likewise
+  std::string json;   ///< file name, `-` for standard output, empty for none
+  std::string csv;    ///< likewise
+  std::string html;   ///< likewise
+  std::string glb;    ///< likewise
+  double fps = 60.0;  ///< keys a second of the glb
   bool quiet = false;
 };
 

@@ -74,6 +74,10 @@ int run_program(int argc, char** argv) {
   add_report_options(run, arguments);
   run.add_option("--html", arguments.html, "write a page that plays the motion there, - for standard output")
       ->type_name("FILE");
+  run.add_option("--glb", arguments.glb, "write a glTF animation there, - for standard output")->type_name("FILE");
+  run.add_option("--fps", arguments.fps, "keys a second of the animation, default: 60")
+      ->check(CLI::PositiveNumber)
+      ->type_name("N");
   ViewArguments viewed;
   CLI::App& view = *app.add_subcommand("view", "look at the motion in a browser");
   add_scene_options(view, viewed);

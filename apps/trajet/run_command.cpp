@@ -10,6 +10,7 @@
 #include "summary.hpp"
 #include "terminal.hpp"
 #include "trajet/io/csv_writer.hpp"
+#include "trajet/io/gltf.hpp"
 #include "trajet/io/output_file.hpp"
 #include "trajet/io/report_json.hpp"
 #include "trajet/io/scene_file.hpp"
@@ -32,25 +33,27 @@ int exit_code(RunStatus status) {
 }
 
 int run_command(const RunArguments& arguments) {
-  const auto to_stdout = {arguments.json == "-", arguments.csv == "-", arguments.html == "-"};
+  const auto to_stdout = {arguments.json == "-", arguments.csv == "-", arguments.html == "-", arguments.glb == "-"};
   const auto stdout_count = std::ranges::count(to_stdout, true);
-  if (stdout_count > 1) throw InputError({"--csv"}, "only one of --json, --csv and --html can go to standard output");
+  if (stdout_count > 1)
+    throw InputError({"--csv"}, "only one of --json, --csv, --html and --glb can go to standard output");
   if (!arguments.html.empty() && !page_unavailable().empty()) throw FileError(page_unavailable());
   Scene scene = read_scene(arguments.scene);
   apply(arguments.overrides, scene);
   check(scene);  // a wrong scene must not cost the user an earlier report: files are opened behind this line
 
-  std::optional<OutputFile> json, csv, html;
+  std::optional<OutputFile> json, csv, html, glb;
   std::optional<CsvWriter> csv_writer;
   if (!arguments.json.empty()) json.emplace(arguments.json);
   if (!arguments.csv.empty()) csv_writer.emplace(csv.emplace(arguments.csv));
   MotionRecord motion;
   if (!arguments.html.empty()) html.emplace(arguments.html);
+  if (!arguments.glb.empty()) glb.emplace(arguments.glb);
 
   const RunResult result = [&] {
     std::vector<RunObserver*> consumers;
     if (csv_writer) consumers.push_back(&*csv_writer);
-    if (html) consumers.push_back(&motion);
+    if (html || glb) consumers.push_back(&motion);
     RunMonitor monitor(std::move(consumers));
     return run(scene, &monitor);
   }();
@@ -63,6 +66,10 @@ int run_command(const RunArguments& arguments) {
   if (html) {
     html->write(page_html({{motion, report_json(result)}}));
     html->finish();
+  }
+  if (glb) {
+    glb->write(gltf_binary(motion, result, arguments.fps));
+    glb->finish();
   }
   if (!arguments.quiet && stdout_count == 0) {
     OutputFile out("-");

@@ -29,6 +29,7 @@ LEAVES = {"error", "version"}
 LIBRARIES = {
     "toml++": {"io"},
     "udunits2.h": {"io"},
+    "tiny_gltf.h": {"io"},
     "nlohmann": {"io", "viz"},
     "fmt": {"io", "apps"},
     "CLI": {"apps"},

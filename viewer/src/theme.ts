@@ -1,4 +1,4 @@
-/** Colours of lines and bodies: [Okabe and Ito 2008], distinguishable with any colour vision. */
+/** Colours of lines and bodies: [OkabeIto2008], distinguishable with any colour vision. */
 export const kPalette = ["#0072b2", "#e69f00", "#cc79a7", "#009e73", "#d55e00", "#56b4e9", "#b8a900", "#7f7f7f"];
 
 /** Of the components x, y, z, in plots and on a body's axes. */

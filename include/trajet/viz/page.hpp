@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "trajet/error.hpp"
-#include "trajet/viz/motion_record.hpp"
+#include "trajet/sim/motion_record.hpp"
 
 namespace trajet {
 

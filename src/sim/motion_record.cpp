@@ -1,4 +1,4 @@
-#include "trajet/viz/motion_record.hpp"
+#include "trajet/sim/motion_record.hpp"
 
 namespace trajet {
 

@@ -1,0 +1,152 @@
+#include "gltf_shapes.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <span>
+
+namespace trajet::detail {
+
+namespace {
+
+using std::numbers::pi;
+
+/// An obstacle that is this much larger than the motion does not set the picture's size.
+constexpr double kLargestObstacle = 3.0;
+/// The radius of a point, and half the side of a plane, against the size of the motion.
+constexpr double kPointRadius = 0.01;
+constexpr double kPlaneHalf = 0.75;
+/// Sides of what stands for a circle.
+constexpr int kCircleSides = 48;
+
+/// A flat convex polygon, corners counterclockwise from where its normal points to.
+void add_polygon(GltfMesh& mesh, std::span<const Vector3> corners, const Vector3& normal) {
+  const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+  for (const Vector3& corner : corners) {
+    mesh.positions.push_back(corner.cast<float>());
+    mesh.normals.push_back(normal.cast<float>());
+  }
+  for (std::uint32_t i = 2; i < corners.size(); ++i)
+    mesh.indices.insert(mesh.indices.end(), {first, first + i - 1, first + i});
+}
+
+GltfMesh polygon_mesh(std::span<const Vector3> corners, const Vector3& normal) {
+  GltfMesh mesh;
+  add_polygon(mesh, corners, normal);
+  return mesh;
+}
+
+GltfMesh box_mesh(const Vector3& center, const Vector3& half_size, const Matrix3& R_WB) {
+  GltfMesh mesh;
+  for (int axis = 0; axis < 3; ++axis)
+    for (const double side : {-1.0, 1.0}) {
+      const Vector3 normal = side * R_WB.col(axis);
+      const Vector3 u = half_size[(axis + 1) % 3] * R_WB.col((axis + 1) % 3);
+      const Vector3 v = side * half_size[(axis + 2) % 3] * R_WB.col((axis + 2) % 3);
+      const Vector3 middle = center + half_size[axis] * normal;
+      const Vector3 corners[] = {middle - u - v, middle + u - v, middle + u + v, middle - u + v};
+      add_polygon(mesh, corners, normal);
+    }
+  return mesh;
+}
+
+GltfMesh moved(GltfMesh mesh, const Vector3& by) {
+  for (Eigen::Vector3f& position : mesh.positions) position += by.cast<float>();
+  return mesh;
+}
+
+GltfMesh mesh_of(const Plane& plane, const Extent& extent) {
+  const Vector3 center = extent.center - plane.normal.dot(extent.center - plane.point) * plane.normal;
+  const Vector3 u = kPlaneHalf * extent.size * plane.normal.unitOrthogonal();
+  const Vector3 v = plane.normal.cross(u);
+  const Vector3 corners[] = {center - u - v, center + u - v, center + u + v, center - u + v};
+  return polygon_mesh(corners, plane.normal);
+}
+
+GltfMesh mesh_of(const Disk& disk, const Extent&) {
+  const Vector3 u = disk.radius * disk.normal.unitOrthogonal();
+  const Vector3 v = disk.normal.cross(u);
+  std::vector<Vector3> corners;
+  for (int i = 0; i < kCircleSides; ++i) {
+    const double angle = 2.0 * pi * i / kCircleSides;
+    corners.push_back(disk.center + std::cos(angle) * u + std::sin(angle) * v);
+  }
+  return polygon_mesh(corners, disk.normal);
+}
+
+GltfMesh mesh_of(const Rectangle& rectangle, const Extent&) {
+  const Vector3 u = 0.5 * rectangle.width * rectangle.up.cross(rectangle.normal);
+  const Vector3 v = 0.5 * rectangle.height * rectangle.up;
+  const Vector3& c = rectangle.center;
+  const Vector3 corners[] = {c - u - v, c + u - v, c + u + v, c - u + v};
+  return polygon_mesh(corners, rectangle.normal);
+}
+
+GltfMesh mesh_of(const Triangle& triangle, const Extent&) { return polygon_mesh(triangle.corners, triangle.normal); }
+
+GltfMesh mesh_of(const Sphere& sphere, const Extent&) { return moved(ball_mesh(sphere.radius), sphere.center); }
+
+GltfMesh mesh_of(const Box& box, const Extent&) { return box_mesh(box.center, box.half_size, box.R_WB); }
+
+}  // namespace
+
+GltfMesh ball_mesh(double radius) {
+  constexpr int kRings = kCircleSides / 2;
+  GltfMesh mesh;
+  for (int i = 0; i <= kRings; ++i)
+    for (int j = 0; j <= kCircleSides; ++j) {
+      const double polar = pi * i / kRings;
+      const double azimuth = 2.0 * pi * j / kCircleSides;
+      const Vector3 normal(std::sin(polar) * std::cos(azimuth), std::sin(polar) * std::sin(azimuth), std::cos(polar));
+      mesh.positions.push_back((radius * normal).cast<float>());
+      mesh.normals.push_back(normal.cast<float>());
+    }
+  const auto index = [](int i, int j) { return static_cast<std::uint32_t>(i * (kCircleSides + 1) + j); };
+  for (int i = 0; i < kRings; ++i)
+    for (int j = 0; j < kCircleSides; ++j) {
+      // at the poles one of the two triangles has no area
+      if (i > 0) mesh.indices.insert(mesh.indices.end(), {index(i, j), index(i + 1, j), index(i, j + 1)});
+      if (i < kRings - 1)
+        mesh.indices.insert(mesh.indices.end(), {index(i, j + 1), index(i + 1, j), index(i + 1, j + 1)});
+    }
+  return mesh;
+}
+
+GltfMesh body_mesh(const World::Body& body, const Extent& extent) {
+  return ball_mesh(body.radius > 0.0 ? body.radius : kPointRadius * extent.size);
+}
+
+GltfMesh obstacle_mesh(const Shape& shape, const Extent& extent) {
+  return std::visit([&](const auto& each) { return mesh_of(each, extent); }, shape);
+}
+
+Extent extent(const MotionRecord& motion) {
+  const World& world = motion.world();
+  Eigen::AlignedBox3d box;
+  for (const World::Body& body : world.bodies)
+    for (const MotionRecord::Piece& piece : motion.pieces(body.group)) {
+      // enough points that no bend of a long piece is missed
+      constexpr int kParts = 8;
+      for (int i = 0; i <= kParts; ++i) {
+        const Eigen::VectorXd q = piece.segment.state(piece.from + (piece.to - piece.from) * i / kParts);
+        box.extend(Vector3(q.segment<3>(body.offset)));
+      }
+    }
+  if (box.isEmpty()) return {Vector3::Zero(), 1.0};
+  const double motion_size = box.sizes().maxCoeff();
+  for (const World::Obstacle& obstacle : world.obstacles)
+    std::visit(
+        [&](const auto& shape) {
+          if constexpr (requires { bounding_ball(shape); }) {
+            const BoundingBall ball = bounding_ball(shape);
+            if (2.0 * ball.radius > kLargestObstacle * motion_size) return;
+            box.extend(Vector3(ball.center.array() - ball.radius));
+            box.extend(Vector3(ball.center.array() + ball.radius));
+          }
+        },
+        obstacle.shape);
+  const double size = box.sizes().maxCoeff();
+  return {box.center(), size > 0.0 ? size : 1.0};
+}
+
+}  // namespace trajet::detail
