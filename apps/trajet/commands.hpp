@@ -46,6 +46,7 @@ struct ViewArguments : RunArguments {
   std::vector<std::string> methods;  ///< further runs, shown beside the first
   std::string out;                   ///< file name, `-` for standard output, empty for a temporary file
   bool no_open = false;
+  bool watch = false;  ///< serve the page, and make it anew when the scene file changes
 };
 
 // One function per command. They throw InputError and FileError; `main` turns these into exit codes.

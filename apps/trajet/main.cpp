@@ -86,6 +86,7 @@ int run_program(int argc, char** argv) {
       ->type_name("NAME,...");
   view.add_option("--out", viewed.out, "write the page there, - for standard output")->type_name("FILE");
   view.add_flag("--no-open", viewed.no_open, "do not open a browser");
+  view.add_flag("--watch", viewed.watch, "serve the page, and make it anew whenever the scene file changes");
   CLI::App& check = *app.add_subcommand("check", "validate a scene without running it");
   add_scene_options(check, arguments);
   CompareArguments comparison;

@@ -1,20 +1,10 @@
 #include <fmt/format.h>
-#include <sys/wait.h>
-#include <unistd.h>
+#include <stdlib.h>
 
-#include <cstdlib>
-#include <deque>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 
-#include "commands.hpp"
-#include "run_monitor.hpp"
 #include "trajet/io/output_file.hpp"
-#include "trajet/io/report_json.hpp"
-#include "trajet/io/scene_file.hpp"
-#include "trajet/sim/run.hpp"
-#include "trajet/viz/page.hpp"
+#include "view_page.hpp"
 
 namespace trajet {
 
@@ -27,51 +17,19 @@ std::filesystem::path make_temporary_folder() {
   return pattern;
 }
 
-/// Opens a page in the user's browser, if the system knows one; whether it could.
-bool open_in_browser(const std::string& address) {
-  const bool has_display = std::getenv("DISPLAY") != nullptr || std::getenv("WAYLAND_DISPLAY") != nullptr;
-  if (!has_display) return false;
-  const pid_t child = fork();
-  if (child == 0) {
-    execlp("xdg-open", "xdg-open", address.c_str(), static_cast<char*>(nullptr));
-    _exit(127);
-  }
-  int status = 0;
-  return child > 0 && waitpid(child, &status, 0) == child && WIFEXITED(status) && WEXITSTATUS(status) == 0;
-}
-
 }  // namespace
 
 int view_command(const ViewArguments& arguments) {
   if (!page_unavailable().empty()) throw FileError(page_unavailable());
-  Scene scene = read_scene(arguments.scene);
-  apply(arguments.overrides, scene);
-  check(scene);
-
-  std::deque<MotionRecord> motions;  // a deque: pages refer to its elements
-  std::vector<PageRun> runs;
-  RunStatus status = RunStatus::finished;
-  const auto add_run = [&](const Scene& variant) {
-    MotionRecord& motion = motions.emplace_back();
-    RunMonitor monitor({&motion});
-    const RunResult result = run(variant, &monitor);
-    if (result.status == RunStatus::failed) fmt::print(stderr, "error: {}\n", result.failure);
-    runs.push_back({motion, report_json(result)});
-    return result.status;
-  };
-  status = add_run(scene);
-  for (const std::string& method : arguments.methods) {
-    Scene variant = scene;
-    SceneOverrides overrides;
-    overrides.method = method;
-    apply(overrides, variant);
-    add_run(variant);
+  if (arguments.watch) {
+    if (!arguments.out.empty()) throw InputError({"--watch"}, "the page is served, not written: leave out --out");
+    serve_live_page(arguments);
   }
-
+  const ViewPage page = make_view_page(arguments, {});
   std::string path = arguments.out;
   if (path.empty()) path = make_temporary_folder() / std::filesystem::path(arguments.scene).stem().concat(".html");
   OutputFile file(path);
-  file.write(page_html(runs));
+  file.write(page.html);
   file.finish();
   const bool is_open = !arguments.no_open && path != "-" && open_in_browser(path);
   if (!arguments.quiet && path != "-") {
@@ -79,7 +37,7 @@ int view_command(const ViewArguments& arguments) {
     out.write(fmt::format("{}{}\n", path, is_open ? "" : ": open it in a browser"));
     out.finish();
   }
-  return exit_code(status);
+  return exit_code(page.status);
 }
 
 }  // namespace trajet

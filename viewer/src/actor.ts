@@ -44,7 +44,7 @@ export function dots(points: THREE.Vector3[], color: string, pixels: number, opa
     size: pixels,
     sizeAttenuation: false,
     map: dotTexture(),
-    alphaTest: 0.5,
+    alphaTest: 0.5 * opacity,
     transparent: opacity < 1,
     opacity,
   });

@@ -160,7 +160,19 @@ export class App {
       stage.showAll();
       stale();
     });
-    view.append(element("details", { class: "panel", open: innerWidth > 800 }, element("summary", {}, "View"), options, element("div", { class: "camera" }, camera, all)));
+    const panel = element(
+      "details",
+      { class: "panel", open: innerWidth > 800 },
+      element("summary", {}, "View"),
+      options,
+      element("div", { class: "camera" }, camera, all),
+    );
+    panel.addEventListener("toggle", () => {
+      stage.refreshLabels();
+      stale();
+    });
+    view.append(panel);
+    stage.refreshLabels();
     return stage;
   }
 

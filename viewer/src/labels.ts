@@ -63,9 +63,9 @@ export class Labels {
     }
   }
 
-  /** Puts each text where its point is now. */
-  update(camera: THREE.Camera, width: number, height: number): void {
-    const taken: Area[] = [];
+  /** Puts each text where its point is now, and none over what is `occupied`. */
+  update(camera: THREE.Camera, width: number, height: number, occupied: readonly Area[]): void {
+    const taken = [...occupied];
     const point = new THREE.Vector3();
     for (const { spec, element, width: w, height: h } of this.placed) {
       point.copy(spec.at).project(camera);

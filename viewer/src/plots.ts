@@ -8,7 +8,9 @@ import type { Track } from "./track";
 interface Curve {
   label: string;
   color: string;
-  dash?: number[];
+  /** Index and name of the run. */
+  run: number;
+  method: string;
   track: Track;
   value: (t: number, piece: number) => number;
 }
@@ -22,25 +24,28 @@ interface Quantity {
 }
 
 const kHeight = 150;
-const kGhostDash = [5, 4];
+/** Of the first run, and of those compared with it. */
+const kDashes: (number[] | undefined)[] = [undefined, [7, 4], [2, 3], [10, 3, 2, 3], [4, 8]];
+const dashOf = (run: number): number[] | undefined => (run === 0 ? undefined : kDashes[1 + ((run - 1) % 4)]);
 
 /** What there is to plot of a body, of the first run whole and of the others dashed. */
 export function quantitiesOf(runs: readonly Run[], bodyName: string | null): Quantity[] {
   const quantities: Quantity[] = [];
   const own = runs.flatMap((run, index) => {
     const body = bodyName === null ? undefined : run.body(bodyName);
-    return body ? [{ body, suffix: index === 0 ? "" : ` ${run.name}`, dash: index === 0 ? undefined : kGhostDash }] : [];
+    return body ? [{ body, run: index, method: run.name }] : [];
   });
   const components = (title: string, unit: string, color: string, of: (b: BodyMotion, t: number, p: number) => number[]) =>
     quantities.push({
       title,
       unit,
       color,
-      curves: own.flatMap(({ body, suffix, dash }) =>
+      curves: own.flatMap(({ body, run, method }) =>
         ["x", "y", "z"].map((axis, i) => ({
-          label: axis + suffix,
+          label: axis,
           color: kComponentColors[i],
-          dash,
+          run,
+          method,
           track: body.track,
           value: (t: number, piece: number) => of(body, t, piece)[i],
         })),
@@ -50,10 +55,11 @@ export function quantitiesOf(runs: readonly Run[], bodyName: string | null): Qua
     quantities.push({
       title,
       unit,
-      curves: own.map(({ body, suffix, dash }) => ({
-        label: title + suffix,
+      curves: own.map(({ body, run, method }) => ({
+        label: "",
         color: kPalette[5],
-        dash,
+        run,
+        method,
         track: body.track,
         value: (t: number, piece: number) => of(body, t, piece),
       })),
@@ -79,9 +85,10 @@ export function quantitiesOf(runs: readonly Run[], bodyName: string | null): Qua
         run.states
           .filter((state) => state.name === name)
           .map((state) => ({
-            label: index === 0 ? name : `${name} ${run.name}`,
+            label: "",
             color: kPalette[i % kPalette.length],
-            dash: index === 0 ? undefined : kGhostDash,
+            run: index,
+            method: run.name,
             track: state.track,
             value: (t: number, piece: number) => state.value(t, piece),
           })),
@@ -233,11 +240,11 @@ export class Plots {
       ],
       series: [
         {},
-        ...quantity.curves.map(({ label, color, dash }) => ({
+        ...quantity.curves.map(({ label, color, run }) => ({
           label,
           stroke: color,
-          width: dash ? 1.25 : 1.75,
-          dash,
+          width: run > 0 ? 1.25 : 1.75,
+          dash: dashOf(run),
           points: { show: false },
           pxAlign: 0,
         })),
@@ -295,13 +302,17 @@ function caption(quantity: Quantity): HTMLElement {
   if (quantity.color) title.style.setProperty("--mark", quantity.color);
   title.className = quantity.color ? "quantity marked" : "quantity";
   element.append(title);
-  if (quantity.curves.length > 1)
-    for (const { label, color, dash } of quantity.curves) {
-      const key = document.createElement("span");
-      key.className = dash ? "key dashed" : "key";
-      key.style.setProperty("--mark", color);
-      key.textContent = label;
-      element.append(key);
-    }
+  const key = (text: string, color: string, dash: number[] | undefined): void => {
+    const line = `<svg viewBox="0 0 24 4" aria-hidden="true"><path d="M0 2H24" stroke="${color}" stroke-dasharray="${dash ?? ""}"/></svg>`;
+    const item = document.createElement("span");
+    item.className = "curve";
+    item.innerHTML = line;
+    item.append(text);
+    element.append(item);
+  };
+  // colours tell the components, dashes the methods
+  for (const { label, color } of quantity.curves.filter(({ run, label }) => run === 0 && label)) key(label, color, undefined);
+  const methods = new Map(quantity.curves.map(({ run, method }) => [run, method]));
+  if (methods.size > 1) for (const [run, method] of methods) key(method, cssColor("--text-soft"), dashOf(run));
   return element;
 }

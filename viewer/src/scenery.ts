@@ -126,8 +126,9 @@ export class Scenery {
       const text = `${number(value * this.spacing, 6)}${unit}`;
       this.labels.push({ at: at(i, j), text, className: "label-scale", priority: 0 });
     };
-    for (let i = u0; i <= u1; i += 2) label(i, v0, i, i + 2 > u1 ? " m" : "");
-    for (let j = v0 + 2; j <= v1; j += 2) label(u1, j, j, j + 2 > v1 ? " m" : "");
+    // every second line, zero among them
+    for (let i = u0 + (u0 & 1); i <= u1; i += 2) label(i, v0, i, i + 2 > u1 ? " m" : "");
+    for (let j = v0 + (v0 & 1); j <= v1; j += 2) label(u1, j, j, j + 2 > v1 ? " m" : "");
   }
 }
 

@@ -4,7 +4,7 @@ import { Actor, dots, type Visibility } from "./actor";
 import type { Impact } from "./data";
 import { element } from "./dom";
 import * as format from "./format";
-import { Labels, type LabelSpec } from "./labels";
+import { type Area, Labels, type LabelSpec } from "./labels";
 import type { Run } from "./motion";
 import { Scenery } from "./scenery";
 import { cssColor, kPalette } from "./theme";
@@ -37,6 +37,8 @@ export class Stage {
   private readonly actors: Actor[][] = [];
   private followed: Actor | null = null;
   private readonly followedPlace = new THREE.Vector3();
+  /** px; what lies over the picture beside the texts. */
+  private occupied: Area[] = [];
   private highlighted: Impact | null = null;
   private time: number;
 
@@ -195,6 +197,12 @@ export class Stage {
         });
     });
     this.labels.set(specs);
+    this.occupied = [this.scale, ...this.container.querySelectorAll<HTMLElement>(".panel")].map((each) => ({
+      left: each.offsetLeft,
+      top: each.offsetTop,
+      right: each.offsetLeft + each.offsetWidth,
+      bottom: each.offsetTop + each.offsetHeight,
+    }));
   }
 
   render(t: number): void {
@@ -222,6 +230,6 @@ export class Stage {
     this.camera.updateProjectionMatrix();
     this.camera.updateMatrixWorld();
     this.renderer.render(this.scene, this.camera);
-    this.labels.update(this.camera, this.container.clientWidth, this.container.clientHeight);
+    this.labels.update(this.camera, this.container.clientWidth, this.container.clientHeight, this.occupied);
   }
 }

@@ -1,0 +1,57 @@
+#include "view_page.hpp"
+
+#include <fmt/format.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <deque>
+
+#include "run_monitor.hpp"
+#include "trajet/io/report_json.hpp"
+#include "trajet/io/scene_file.hpp"
+#include "trajet/sim/run.hpp"
+
+namespace trajet {
+
+ViewPage make_view_page(const ViewArguments& arguments, const PageOptions& options) {
+  Scene scene = read_scene(arguments.scene);
+  apply(arguments.overrides, scene);
+  check(scene);
+
+  std::deque<MotionRecord> motions;  // a deque: pages refer to its elements
+  std::vector<PageRun> runs;
+  const auto add_run = [&](const Scene& variant) {
+    MotionRecord& motion = motions.emplace_back();
+    RunMonitor monitor({&motion});
+    const RunResult result = run(variant, &monitor);
+    if (result.status == RunStatus::failed) fmt::print(stderr, "error: {}: {}\n", result.method, result.failure);
+    runs.push_back({motion, report_json(result)});
+    return result.status;
+  };
+  ViewPage page;
+  page.status = add_run(scene);
+  for (const std::string& method : arguments.methods) {
+    Scene variant = scene;
+    SceneOverrides overrides;
+    overrides.method = method;
+    apply(overrides, variant);
+    add_run(variant);
+  }
+  page.html = page_html(runs, options);
+  return page;
+}
+
+bool open_in_browser(const std::string& address) {
+  const bool has_display = std::getenv("DISPLAY") != nullptr || std::getenv("WAYLAND_DISPLAY") != nullptr;
+  if (!has_display) return false;
+  const pid_t child = fork();
+  if (child == 0) {
+    execlp("xdg-open", "xdg-open", address.c_str(), static_cast<char*>(nullptr));
+    _exit(127);
+  }
+  int status = 0;
+  return child > 0 && waitpid(child, &status, 0) == child && WIFEXITED(status) && WEXITSTATUS(status) == 0;
+}
+
+}  // namespace trajet

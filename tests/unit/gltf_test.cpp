@@ -1,0 +1,182 @@
+// The glTF animation of a run: what other programs read must be the motion.
+
+#include "trajet/io/gltf.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <nlohmann/json.hpp>
+
+#include "scene_run.hpp"
+
+namespace trajet {
+namespace {
+
+using Json = nlohmann::json;
+
+/// A glb file read by its specification: a header of 12 bytes, then chunks of length, type, content.
+class Glb {
+ public:
+  explicit Glb(const std::string& bytes) {
+    EXPECT_EQ(bytes.substr(0, 4), "glTF");
+    EXPECT_EQ(number(bytes, 8), bytes.size());
+    const std::size_t json_size = number(bytes, 12);
+    json = Json::parse(bytes.substr(20, json_size));
+    buffer_ = bytes.substr(20 + json_size + 8);
+  }
+
+  const Json& node(const std::string& name) const {
+    for (const Json& each : json["nodes"])
+      if (each["name"] == name) return each;
+    throw std::out_of_range("no node '" + name + "'");
+  }
+
+  /// The floats of an accessor, one row per item.
+  std::vector<std::vector<float>> floats(const Json& index, int columns) const {
+    const Json& accessor = json["accessors"][index.get<std::size_t>()];
+    const Json& view = json["bufferViews"][accessor["bufferView"].get<std::size_t>()];
+    std::vector<std::vector<float>> rows(accessor["count"].get<std::size_t>(), std::vector<float>(columns));
+    const char* from = buffer_.data() + view.value("byteOffset", 0);
+    for (auto& row : rows) {
+      std::memcpy(row.data(), from, row.size() * sizeof(float));
+      from += row.size() * sizeof(float);
+    }
+    return rows;
+  }
+
+  /// Key times and translations of a body.
+  struct Keys {
+    std::vector<float> times;
+    std::vector<std::vector<float>> positions;
+  };
+  Keys keys(const std::string& body) const {
+    const Json& animation = json["animations"][0];
+    for (const Json& channel : animation["channels"]) {
+      const auto target = channel["target"]["node"].get<std::size_t>();
+      if (json["nodes"][target]["name"] != body || channel["target"]["path"] != "translation") continue;
+      const Json& sampler = animation["samplers"][channel["sampler"].get<std::size_t>()];
+      EXPECT_EQ(sampler.value("interpolation", "LINEAR"), "LINEAR");
+      Keys keys{{}, floats(sampler["output"], 3)};
+      for (const auto& row : floats(sampler["input"], 1)) keys.times.push_back(row[0]);
+      return keys;
+    }
+    throw std::out_of_range("no translation of '" + body + "'");
+  }
+
+  Json json;
+
+ private:
+  static std::uint32_t number(const std::string& bytes, std::size_t at) {
+    std::uint32_t value = 0;
+    std::memcpy(&value, bytes.data() + at, sizeof value);
+    return value;
+  }
+
+  std::string buffer_;
+};
+
+struct Animation {
+  RunResult result;
+  Glb glb;
+};
+
+Animation animate(const std::string& scene, double fps) {
+  MotionRecord motion;
+  RunResult result = test::run_text(scene, &motion);
+  Glb glb(gltf_binary(motion, result, fps));
+  return {std::move(result), std::move(glb)};
+}
+
+const char* const kBouncingBall = R"(
+[time]
+start = 2
+end = 5
+[[body]]
+name = "ball"
+shape = "sphere"
+radius = 0.1
+position = [0, 0, 1.1]
+velocity = [3, 0, 0]
+acceleration = [0, 0, -10]
+[[obstacle]]
+name = "ground"
+shape = "plane"
+point = [0, 0, 0]
+normal = [0, 0, 1]
+on_hit = "bounce"
+restitution = 0.5
+)";
+
+// z(t) = 1.1 - 5 t^2 until the impact at sqrt(0.2), all from the start.
+TEST(Gltf, KeysAreTheMotion) {
+  const auto [result, glb] = animate(kBouncingBall, 60.0);
+  const Glb::Keys keys = glb.keys("ball");
+  EXPECT_EQ(keys.times.front(), 0.0f);
+  EXPECT_EQ(keys.times.back(), 3.0f);
+  std::size_t checked = 0;
+  for (std::size_t i = 0; i < keys.times.size(); ++i) {
+    const double t = keys.times[i];
+    // single precision: 6e-8 of 9 m in position, and of the time at a speed below 5.4 m/s
+    if (i > 0) EXPECT_LT(keys.times[i - 1], keys.times[i]);
+    EXPECT_NEAR(keys.positions[i][0], 3.0 * t, 2e-6);
+    if (t > std::sqrt(0.2)) continue;
+    EXPECT_NEAR(keys.positions[i][2], 1.1 - 5.0 * t * t, 1e-6);
+    ++checked;
+  }
+  EXPECT_EQ(checked, 28u);  // frames 0 to 26, and the first of the pair at the impact
+}
+
+TEST(Gltf, TwoKeysAtEachImpactGiveItsPosition) {
+  const auto [result, glb] = animate(kBouncingBall, 25.0);
+  const Glb::Keys keys = glb.keys("ball");
+  int impacts = 0;
+  for (const Impact& impact : result.impacts) {
+    const float time = static_cast<float>(impact.time - result.start_time);
+    const auto key = std::ranges::find(keys.times, time);
+    ASSERT_NE(key, keys.times.end()) << impact.time;
+    const auto index = static_cast<std::size_t>(key - keys.times.begin());
+    ASSERT_LT(index + 1, keys.times.size());
+    if (impact.kind == ImpactKind::rest) continue;  // its position is that of the last bounce, a little before
+    // impacts of the ball's last jumps come closer than single precision can tell
+    EXPECT_EQ(keys.times[index + 1], std::nextafter(time, 10.0f));
+    for (const std::size_t each : {index, index + 1})
+      for (int axis = 0; axis < 3; ++axis) EXPECT_NEAR(keys.positions[each][axis], impact.position[axis], 1e-6);
+    ++impacts;
+  }
+  EXPECT_GT(impacts, 10);
+  EXPECT_EQ(glb.node("world")["extras"]["impacts"].size(), result.impacts.size());
+  EXPECT_EQ(glb.node("world")["extras"]["impacts"][0]["time"], result.impacts[0].time);
+}
+
+// -90 degrees about x carries z up into y up.
+TEST(Gltf, OneNodeTurnsTheSceneToYUp) {
+  const auto [result, glb] = animate(kBouncingBall, 60.0);
+  const auto q = glb.node("world")["rotation"].get<std::vector<double>>();
+  const Vector3 up = Quaternion(q[3], q[0], q[1], q[2]) * Vector3(0, 0, 1);
+  EXPECT_NEAR((up - Vector3(0, 1, 0)).norm(), 0.0, 1e-15);
+  for (const Json& node : glb.json["nodes"])
+    if (node["name"] != "world") EXPECT_FALSE(node.contains("rotation"));
+}
+
+TEST(Gltf, TellsWhatAnEventHasSet) {
+  const auto [result, glb] = animate(R"(
+[time]
+end = 2
+[[body]]
+name = "traveller"
+velocity = [1, 0, 0]
+[[event]]
+name = "jump"
+when = "t - 0.7"
+action = { set = { traveller.r = "[10, 0, 0]" } }
+)",
+                                     10.0);
+  const Glb::Keys keys = glb.keys("traveller");
+  const auto index = static_cast<std::size_t>(std::ranges::find(keys.times, 0.7f) - keys.times.begin());
+  ASSERT_LT(index + 1, keys.times.size());
+  EXPECT_NEAR(keys.positions[index][0], 0.7, 1e-6);
+  EXPECT_NEAR(keys.positions[index + 1][0], 10.0, 1e-6);
+}
+
+}  // namespace
+}  // namespace trajet

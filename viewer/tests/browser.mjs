@@ -1,0 +1,167 @@
+// The pages of real scenes in a real browser, without network: node browser.mjs PROGRAM CHROMIUM EXAMPLES FOLDER
+// Writes pages and screenshots into FOLDER.
+
+import assert from "node:assert/strict";
+import { execFile, execFileSync, spawn } from "node:child_process";
+import { mkdirSync, readFileSync, statSync, writeFileSync } from "node:fs";
+import { join } from "node:path";
+import { after, before, test } from "node:test";
+import { pathToFileURL } from "node:url";
+import { promisify } from "node:util";
+import { chromium } from "playwright-core";
+
+const [program, executablePath, examples, folder] = process.argv.slice(2);
+mkdirSync(folder, { recursive: true });
+
+let browser;
+before(async () => {
+  browser = await chromium.launch({
+    executablePath,
+    // software rendering: the same picture on every machine
+    args: ["--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"],
+  });
+});
+after(() => browser?.close());
+
+/** Runs a scene; its page, and its report. */
+function view(scene, ...options) {
+  const name = scene.replaceAll("/", "_");
+  const file = join(folder, `${name}.html`);
+  const report = join(folder, `${name}.json`);
+  const path = join(examples, `${scene}.toml`);
+  execFileSync(program, ["run", path, "--quiet", "--json", report]);
+  execFileSync(program, ["view", path, "--no-open", "--quiet", "--out", file, ...options]);
+  return { file, report: JSON.parse(readFileSync(report, "utf8")) };
+}
+
+/** Opens a page; `problems` collects what it says on the console. */
+async function open(address, options = {}) {
+  const context = await browser.newContext({ viewport: { width: 1280, height: 800 }, offline: true, ...options });
+  const page = await context.newPage();
+  const problems = [];
+  page.on("console", (message) => problems.push(message.text()));
+  page.on("pageerror", (error) => problems.push(error.message));
+  page.on("request", (request) => {
+    if (!request.url().startsWith("file:") && !request.url().startsWith("data:")) problems.push(request.url());
+  });
+  await page.goto(address);
+  return { page, context, problems };
+}
+
+test("a page plays a run from the file system, without network", async () => {
+  const { file, report } = view("free_kick");
+  assert.ok(statSync(file).size < 3e6);
+  const { page, context, problems } = await open(pathToFileURL(file).href);
+
+  assert.equal(await page.title(), report.title);
+  await page.getByRole("button", { name: "Next impact" }).click();
+  const [impact] = report.impacts;
+  assert.equal(await page.locator("output.time").textContent(), `${Number(impact.time.toPrecision(10))} s`);
+  assert.equal(await page.evaluate(() => window.trajet.time), impact.time);
+
+  const last = report.final[0];
+  const position = await page.evaluate(({ body, t }) => window.trajet.position(body, t), { body: last.body, t: report.end_time });
+  last.position.forEach((each, i) => assert.ok(Math.abs(each - position[i]) <= 1e-9, `${each} ${position[i]}`));
+  const atImpact = await page.evaluate(({ body, t }) => window.trajet.position(body, t), { body: impact.body, t: impact.time });
+  impact.position.forEach((each, i) => assert.ok(Math.abs(each - atImpact[i]) <= 1e-9, `${each} ${atImpact[i]}`));
+
+  await page.keyboard.press("Home");
+  await page.keyboard.press("Space");
+  await page.waitForFunction(() => window.trajet.time > 0.05);
+  await page.keyboard.press("Space");
+  assert.deepEqual(problems, []);
+  await context.close();
+});
+
+test("a zoomed plot shows the curve itself; a click sets the time", async () => {
+  const { file } = view("free_kick");
+  const { page, context, problems } = await open(pathToFileURL(file).href);
+  const plot = page.getByRole("img", { name: "position against time" });
+  const box = await plot.boundingBox();
+  await page.mouse.click(box.x + box.width / 2, box.y + box.height / 2);
+  const { time, end } = await page.evaluate(() => ({ time: window.trajet.time, end: window.trajet.clock.end }));
+  assert.ok(Math.abs(time / end - 0.5) < 0.01, `${time}`);
+  await page.mouse.move(box.x + 0.2 * box.width, box.y + 20);
+  await page.mouse.down();
+  await page.mouse.move(box.x + 0.4 * box.width, box.y + 20, { steps: 5 });
+  await page.mouse.up();
+  // the middle of the zoomed range is at 0.3 of the run
+  await page.mouse.click(box.x + box.width / 2, box.y + box.height / 2);
+  const zoomed = await page.evaluate(() => window.trajet.time);
+  assert.ok(Math.abs(zoomed / end - 0.3) < 0.01, `${zoomed}`);
+  assert.deepEqual(problems, []);
+  await context.close();
+});
+
+test("methods stand beside each other, in both colour schemes and on a phone", async () => {
+  const { file } = view("notes/drag_3d", "--step", "1", "--methods", "euler,rk4");
+  for (const [name, options] of Object.entries({
+    light: { colorScheme: "light" },
+    dark: { colorScheme: "dark" },
+    phone: { viewport: { width: 390, height: 844 }, deviceScaleFactor: 2 },
+  })) {
+    const { page, context, problems } = await open(pathToFileURL(file).href, options);
+    assert.deepEqual(await page.evaluate(() => window.trajet.runs.map((run) => run.name)), ["taylor", "euler", "rk4"]);
+    await page.evaluate(() => window.trajet.seek(4));
+    await page.waitForTimeout(100);
+    await page.screenshot({ path: join(folder, `methods_${name}.png`) });
+    // nothing is wider than the screen
+    assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth));
+    assert.deepEqual(problems, []);
+    await context.close();
+  }
+});
+
+test("every control has a name", async () => {
+  const { file } = view("free_kick");
+  const { page, context } = await open(pathToFileURL(file).href);
+  const unnamed = await page.evaluate(() =>
+    [...document.querySelectorAll("button, input, select, [role=img]")]
+      .filter((each) => !(each.getAttribute("aria-label") || each.textContent.trim() || each.labels?.[0]?.textContent))
+      .map((each) => each.outerHTML),
+  );
+  assert.deepEqual(unnamed, []);
+  await context.close();
+});
+
+test("a page holds a hundred thousand steps", async () => {
+  const scene = join(folder, "long.toml");
+  writeFileSync(
+    scene,
+    `[time]\nend = 100\nsample = 10\n[method]\nname = "euler"\nstep = "1 ms"\n` +
+      `[[body]]\nname = "p"\nposition = [1, 0, 0]\nvelocity = [0, 1, 0.05]\nacceleration = "[-x, -y, 0]"\n`,
+  );
+  const file = join(folder, "long.html");
+  await promisify(execFile)(program, ["view", scene, "--no-open", "--quiet", "--out", file]);
+  const { page, context, problems } = await open(pathToFileURL(file).href);
+  assert.equal(await page.evaluate(() => window.trajet.runs[0].bodies[0].track.count), 100000);
+  const { position } = JSON.parse(execFileSync(program, ["run", scene, "--json", "-"])).final[0];
+  const shown = await page.evaluate(() => window.trajet.position("p", 100));
+  position.forEach((each, i) => assert.ok(Math.abs(each - shown[i]) <= 1e-9, `${each} ${shown[i]}`));
+  assert.deepEqual(problems, []);
+  await context.close();
+});
+
+test("--watch shows an error of the scene at its place, and the scene when it is mended", async () => {
+  const scene = join(folder, "watched.toml");
+  const right = readFileSync(join(examples, "free_kick.toml"), "utf8");
+  writeFileSync(scene, right.replace("norm(v)", "nrm(v)"));
+  const server = spawn(program, ["view", scene, "--watch", "--no-open"]);
+  try {
+    const line = await new Promise((resolve) => server.stdout.once("data", (data) => resolve(String(data))));
+    const context = await browser.newContext();
+    const page = await context.newPage();
+    await page.goto(line.match(/http:\S+\//)[0]);
+    const alert = await page.getByRole("alert").textContent();
+    assert.match(alert, /watched\.toml:\d+:\d+ there is no function 'nrm'; did you mean 'norm'/);
+    const [, number] = alert.match(/:(\d+):/);
+    assert.equal((await page.locator(".row.wrong .line-number").textContent()).trim(), number);
+    await page.screenshot({ path: join(folder, "error.png") });
+    writeFileSync(scene, right);
+    await page.waitForFunction(() => window.trajet !== undefined);
+    assert.equal(await page.title(), "A free kick over the wall into the corner");
+    await context.close();
+  } finally {
+    server.kill();
+  }
+});

@@ -1,0 +1,70 @@
+import { describe, expect, it } from "vitest";
+import type { BodyData } from "../src/data";
+import { BodyMotion, quaternionOfMatrix } from "../src/motion";
+import { trailOf } from "../src/sampling";
+import { Track } from "../src/track";
+
+const body = (more: Partial<BodyData> = {}): BodyData => ({
+  name: "ball",
+  shape: { kind: "point" },
+  mass: null,
+  group: 0,
+  position: 0,
+  velocity: 3,
+  ...more,
+});
+
+// r = (3 t, 0, 4 t - 5 t^2), v = (3, 0, 4 - 10 t)
+const flight = new Track(
+  Float64Array.from([0, 1, 0, 2, 0, 0, 0, 3, 0, 4, 3, 0, 4, 0, 0, -10, 0, 0, -5, 0, 0, 0]),
+  6,
+);
+
+describe("a body", () => {
+  it("has the quantities of its path", () => {
+    const motion = new BodyMotion(body({ mass: 2 }), flight);
+    expect(motion.position(0.5)).toEqual([1.5, 0, 0.75]);
+    expect(motion.velocity(0.5)).toEqual([3, 0, -1]);
+    expect(motion.acceleration(0.5)).toEqual([0, 0, -10]);
+    expect(motion.kineticEnergy(0.5)).toBe(10);
+  });
+
+  it("leaves a trail that is as near to its path as asked", () => {
+    const trail = trailOf(new BodyMotion(body(), flight), 1e-3);
+    for (let i = 1; i < trail.times.length; ++i) {
+      const h = trail.times[i] - trail.times[i - 1];
+      // the chord of a parabola: a h^2 / 8
+      expect((10 * h * h) / 8).toBeLessThanOrEqual(1e-3);
+    }
+    expect(trail.times.at(-1)).toBe(1);
+  });
+});
+
+describe("an orientation", () => {
+  const turned = (q: number[]): number[] => {
+    const [w, x, y, z] = q;
+    return [
+      1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y),
+      2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x),
+      2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y),
+    ]; // prettier-ignore
+  };
+
+  it("is read off a matrix, whichever component of the quaternion is largest", () => {
+    const tests = [[0.9, 0.1, -0.3, 0.2], [0.1, 0.9, 0.3, -0.2], [-0.1, 0.2, 0.9, 0.3], [0.2, -0.3, 0.1, 0.9]];
+    for (const test of tests) {
+      const norm = Math.hypot(...test);
+      const q = test.map((each) => each / norm);
+      const found = quaternionOfMatrix(turned(q).map((each) => 1.3 * each));
+      const sign = Math.sign(found.reduce((sum, each, i) => sum + each * q[i], 0));
+      found.forEach((each, i) => expect(sign * each).toBeCloseTo(q[i], 14));
+    }
+  });
+
+  it("is shown normalised, and its defect is told", () => {
+    const track = new Track(Float64Array.from([0, 1, 0, 0, 0, 0, 0, 0, 0, 0, 1.2, 0, 0, 1.6]), 10);
+    const motion = new BodyMotion(body({ orientation: { kind: "quaternion", component: 6 } }), track);
+    motion.orientation(0.5).forEach((each, i) => expect(each).toBeCloseTo([0.6, 0, 0, 0.8][i], 15));
+    expect(motion.orientationDefect(0.5)).toBeCloseTo(1, 15);
+  });
+});

@@ -1,0 +1,66 @@
+import { describe, expect, it } from "vitest";
+import { Clock, comfortableSpeed, neighbour, speedsAround } from "../src/clock";
+import * as format from "../src/format";
+import { candidates, overlap } from "../src/labels";
+import { readableRange } from "../src/plots";
+
+describe("the clock", () => {
+  it("plays at the speed chosen, stops at the end, and starts again from there", () => {
+    const clock = new Clock(1, 4);
+    clock.toggle();
+    clock.advance(2);
+    expect(clock.time).toBe(3);
+    clock.advance(2);
+    expect([clock.time, clock.isPlaying]).toEqual([4, false]);
+    clock.toggle();
+    expect([clock.time, clock.isPlaying]).toEqual([1, true]);
+  });
+
+  it("shows short motions slowly and long ones quickly", () => {
+    expect([0.36, 3, 3600, 3e7].map(comfortableSpeed)).toEqual([0.05, 1, 500, 5e6]);
+    for (const duration of [1e-6, 0.36, 3, 3600]) {
+      const speed = comfortableSpeed(duration);
+      expect(speedsAround(speed)).toContain(speed);
+      expect(duration / speed).toBeGreaterThan(1);
+      expect(duration / speed).toBeLessThan(21);
+    }
+  });
+
+  it("steps to the next time on either side, in whatever order they come", () => {
+    const times = [0.7, 0.2, 0.9, 0.2];
+    expect(neighbour(times, 0.2, 1)).toBe(0.7);
+    expect(neighbour(times, 0.5, -1)).toBe(0.2);
+    expect(neighbour(times, 0.9, 1)).toBeNull();
+  });
+});
+
+describe("numbers", () => {
+  it("have the digits that matter", () => {
+    expect(format.number(500.00961)).toBe("500");
+    expect(format.number(-0.000123456, 3)).toBe("−0.000123");
+    expect(format.exactTime(0.36000013714)).toBe("0.3600001371 s");
+    expect(format.time(0.2, 0.36)).toBe("0.20000");
+    expect(format.time(12.3, 3600)).toBe("12.3");
+  });
+
+  it("measure grids in 1, 2 and 5", () => {
+    expect([2.3, 18, 0.06, 0.9].map(format.roundSpacing)).toEqual([2, 20, 0.05, 1]);
+  });
+});
+
+describe("a plot's range", () => {
+  it("does not blow up the rounding of a constant", () => {
+    const [low, high] = readableRange(null, 5, 5 + 1e-14);
+    expect(low).toBeCloseTo(4.5, 10);
+    expect(high).toBeCloseTo(5.5, 10);
+    expect(readableRange(null, 0, 0)).toEqual([-1, 1]);
+    expect(readableRange(null, null, null)).toEqual([-1, 1]);
+  });
+});
+
+describe("texts", () => {
+  it("have four places around a point, none of them over it", () => {
+    const point = { left: 100, right: 100, top: 50, bottom: 50 };
+    for (const place of candidates(100, 50, 40, 12)) expect(overlap(place, point)).toBe(false);
+  });
+});
