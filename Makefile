@@ -24,6 +24,7 @@ demo: setup build ## set up, build, and fly the rifle shot; its files go to buil
 	build/release/trajet run examples/notes/rifle_shot.toml --json $(DEMO)/rifle_shot.json --csv $(DEMO)/rifle_shot.csv
 
 test: setup ## set up, build, and run all tests
+	-@scripts/setup browser
 	@$(CONFIGURE) release
 	@$(BUILD) release
 	@scripts/run_tests build/release

@@ -86,8 +86,9 @@ Json constant_mass(const World::Body& body) {
 Json body_data(const World::Body& body) {
   Json shape = {{"kind", body.radius > 0.0 ? "sphere" : "point"}};
   if (body.radius > 0.0) shape["radius"] = body.radius;
-  return {{"name", body.name},   {"shape", shape},          {"mass", constant_mass(body)},
-          {"group", body.group}, {"position", body.offset}, {"velocity", body.offset + 3}};
+  return {{"name", body.name},       {"shape", shape},          {"mass", constant_mass(body)},
+          {"group", body.group},     {"position", body.offset}, {"velocity", body.offset + 3},
+          {"attitude", {1, 0, 0, 0}}};
 }
 
 }  // namespace

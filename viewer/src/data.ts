@@ -42,10 +42,26 @@ export interface BodyData {
   /** The first component of p_WB, and of v_WB, in the group's state. */
   position: number;
   velocity: number;
-  /** The first component of the orientation, if the body turns, and how it is carried. */
-  orientation?: { kind: "quaternion" | "matrix"; component: number };
-  /** Principal inertia data: the matrix about the centre of mass in the body's frame, kg m^2. */
-  inertia?: [Vector, Vector, Vector];
+  /** Where the body does not turn: how it stands, (w, x, y, z). */
+  attitude: [number, number, number, number];
+  /** Where it turns. */
+  rotation?: RotationData;
+}
+
+/** How the orientation and the angular velocity of a body stand in the state of its group. */
+export interface RotationData {
+  /**
+   * `quaternion`: (w, x, y, z). `matrix`: nine numbers, row by row. `rotation-vector`: a quaternion, and the rotation
+   * vector that has been added to it since the piece began.
+   */
+  kind: "quaternion" | "matrix" | "rotation-vector";
+  /** The first component of the orientation, and of the angular velocity. */
+  component: number;
+  angular_velocity: number;
+  /** In which frame angular velocity and rotation vector are. */
+  frame: "world" | "body";
+  /** About the centre of mass in the body's frame, kg m^2, row by row; null where the law needs none. */
+  inertia: [Vector, Vector, Vector] | null;
 }
 
 export type ObstacleShape =

@@ -17,7 +17,7 @@ export class BodyMotion {
     return this.data.name;
   }
   get turns(): boolean {
-    return this.data.orientation !== undefined;
+    return this.data.rotation !== undefined;
   }
 
   /** `piece`: the one that stands for t, unless the value just before a jump is wanted. */
@@ -32,30 +32,75 @@ export class BodyMotion {
   }
 
   orientation(t: number, piece = this.track.pieceAt(t)): Quaternion {
-    const orientation = this.data.orientation;
-    if (!orientation) return [1, 0, 0, 0];
-    const values = this.components(t, piece, orientation.kind === "matrix" ? 9 : 4);
-    return orientation.kind === "matrix" ? quaternionOfMatrix(values) : normalized(values as Quaternion);
+    const { rotation } = this.data;
+    if (!rotation) return this.data.attitude;
+    const component = rotation.component;
+    if (rotation.kind === "matrix") return quaternionOfMatrix(this.components(t, piece, component, 9));
+    const q = normalized(this.components(t, piece, component, 4) as Quaternion);
+    if (rotation.kind === "quaternion") return q;
+    const added = quaternionOfRotationVector(this.track.vector(piece, component + 4, t));
+    return rotation.frame === "world" ? product(added, q) : product(q, added);
+  }
+
+  /** rad/s, world frame. */
+  angularVelocity(t: number, piece = this.track.pieceAt(t)): Vector {
+    const { rotation } = this.data;
+    if (!rotation) return [0, 0, 0];
+    const w = this.track.vector(piece, rotation.angular_velocity, t);
+    return rotation.frame === "world" ? w : rotated(this.orientation(t, piece), w);
   }
 
   /** How far the orientation as it is carried has left the rotations: |q| - 1, or det R - 1. */
   orientationDefect(t: number, piece = this.track.pieceAt(t)): number {
-    const orientation = this.data.orientation;
-    if (!orientation) return 0;
-    if (orientation.kind === "quaternion") return Math.hypot(...this.components(t, piece, 4)) - 1;
-    return determinant(this.components(t, piece, 9)) - 1;
+    const { rotation } = this.data;
+    if (!rotation) return 0;
+    if (rotation.kind === "matrix") return determinant(this.components(t, piece, rotation.component, 9)) - 1;
+    return Math.hypot(...this.components(t, piece, rotation.component, 4)) - 1;
   }
 
   /** J; per kg of the body, J/kg, where its mass is not known. Of the rotation too where the inertia is known. */
   kineticEnergy(t: number, piece = this.track.pieceAt(t)): number {
     const v = this.velocity(t, piece);
-    return 0.5 * (this.data.mass ?? 1) * (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+    return 0.5 * (this.data.mass ?? 1) * dot(v, v) + (this.data.mass === null ? 0 : this.rotationEnergy(t, piece));
   }
 
-  private components(t: number, piece: number, count: number): number[] {
-    const first = this.data.orientation!.component;
+  /** J; 0 where the inertia is not known. */
+  rotationEnergy(t: number, piece = this.track.pieceAt(t)): number {
+    const inertia = this.data.rotation?.inertia;
+    if (!inertia) return 0;
+    const [w, x, y, z] = this.orientation(t, piece);
+    const inBody = rotated([w, -x, -y, -z], this.angularVelocity(t, piece));
+    return 0.5 * inBody.reduce((sum, each, i) => sum + each * dot(inertia[i], inBody), 0);
+  }
+
+  private components(t: number, piece: number, first: number, count: number): number[] {
     return Array.from({ length: count }, (_, i) => this.track.value(piece, first + i, t));
   }
+}
+
+const dot = (a: Vector, b: Vector): number => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+
+/** Hamilton's product a b. */
+export function product(a: Quaternion, b: Quaternion): Quaternion {
+  return [
+    a[0] * b[0] - a[1] * b[1] - a[2] * b[2] - a[3] * b[3],
+    a[0] * b[1] + a[1] * b[0] + a[2] * b[3] - a[3] * b[2],
+    a[0] * b[2] - a[1] * b[3] + a[2] * b[0] + a[3] * b[1],
+    a[0] * b[3] + a[1] * b[2] - a[2] * b[1] + a[3] * b[0],
+  ];
+}
+
+/** q v q*, of a unit quaternion. */
+export function rotated(q: Quaternion, v: Vector): Vector {
+  const [, x, y, z] = product(product(q, [0, ...v]), [q[0], -q[1], -q[2], -q[3]]);
+  return [x, y, z];
+}
+
+/** The rotation by |u| about u. */
+export function quaternionOfRotationVector(u: Vector): Quaternion {
+  const angle = length(u);
+  const factor = angle === 0 ? 0.5 : Math.sin(angle / 2) / angle;
+  return [Math.cos(angle / 2), factor * u[0], factor * u[1], factor * u[2]];
 }
 
 function normalized(q: Quaternion): Quaternion {

@@ -35,7 +35,7 @@ export function quantitiesOf(runs: readonly Run[], bodyName: string | null): Qua
     const body = bodyName === null ? undefined : run.body(bodyName);
     return body ? [{ body, run: index, method: run.name }] : [];
   });
-  const components = (title: string, unit: string, color: string, of: (b: BodyMotion, t: number, p: number) => number[]) =>
+  const components = (title: string, unit: string, color: string | undefined, of: (b: BodyMotion, t: number, p: number) => number[]) =>
     quantities.push({
       title,
       unit,
@@ -71,10 +71,12 @@ export function quantitiesOf(runs: readonly Run[], bodyName: string | null): Qua
     components("acceleration", "m/s²", kQuantityColors.acceleration, (b, t, p) => b.acceleration(t, p));
     scalars("speed", "m/s", (b, t, p) => length(b.velocity(t, p)));
     scalars("kinetic energy", first.data.mass === null ? "J/kg" : "J", (b, t, p) => b.kineticEnergy(t, p));
-    if (first.turns)
-      scalars(first.data.orientation!.kind === "matrix" ? "det R − 1" : "|q| − 1", "", (b, t, p) =>
-        b.orientationDefect(t, p),
-      );
+    if (first.data.rotation) {
+      components("angular velocity", "rad/s", undefined, (b, t, p) => b.angularVelocity(t, p));
+      if (first.data.rotation.inertia) scalars("rotation energy", "J", (b, t, p) => b.rotationEnergy(t, p));
+      const defect = first.data.rotation.kind === "matrix" ? "det R − 1" : "|q| − 1";
+      scalars(defect, "", (b, t, p) => b.orientationDefect(t, p));
+    }
   }
   const stateNames = [...new Set(runs.flatMap((run) => run.states.map((state) => state.name)))];
   stateNames.forEach((name, i) =>

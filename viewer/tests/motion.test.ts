@@ -1,6 +1,6 @@
 import { describe, expect, it } from "vitest";
-import type { BodyData } from "../src/data";
-import { BodyMotion, quaternionOfMatrix } from "../src/motion";
+import type { BodyData, RotationData } from "../src/data";
+import { BodyMotion, product, quaternionOfMatrix, quaternionOfRotationVector, rotated } from "../src/motion";
 import { trailOf } from "../src/sampling";
 import { Track } from "../src/track";
 
@@ -11,6 +11,16 @@ const body = (more: Partial<BodyData> = {}): BodyData => ({
   group: 0,
   position: 0,
   velocity: 3,
+  attitude: [1, 0, 0, 0],
+  ...more,
+});
+
+const rotation = (more: Partial<RotationData>): RotationData => ({
+  kind: "quaternion",
+  component: 6,
+  angular_velocity: 10,
+  frame: "world",
+  inertia: null,
   ...more,
 });
 
@@ -62,9 +72,33 @@ describe("an orientation", () => {
   });
 
   it("is shown normalised, and its defect is told", () => {
-    const track = new Track(Float64Array.from([0, 1, 0, 0, 0, 0, 0, 0, 0, 0, 1.2, 0, 0, 1.6]), 10);
-    const motion = new BodyMotion(body({ orientation: { kind: "quaternion", component: 6 } }), track);
+    const track = new Track(Float64Array.from([0, 1, 0, 0, 0, 0, 0, 0, 0, 0, 1.2, 0, 0, 1.6, 0, 0, 5]), 13);
+    const motion = new BodyMotion(body({ rotation: rotation({ kind: "quaternion" }) }), track);
     motion.orientation(0.5).forEach((each, i) => expect(each).toBeCloseTo([0.6, 0, 0, 0.8][i], 15));
     expect(motion.orientationDefect(0.5)).toBeCloseTo(1, 15);
+    expect(motion.angularVelocity(0.5)).toEqual([0, 0, 5]);
+  });
+
+  it("is put together from a quaternion and a rotation vector, on the side of its frame", () => {
+    const start = quaternionOfRotationVector([0.3, 0, 0]);
+    const added = quaternionOfRotationVector([0, 0.2, 0]);
+    const state = [0, 0, 0, 0, 0, 0, ...start, 0, 0.2, 0, 1, 2, 3];
+    const track = new Track(Float64Array.from([0, 1, 0, 0, ...state]), state.length);
+    for (const frame of ["world", "body"] as const) {
+      const motion = new BodyMotion(body({ rotation: rotation({ kind: "rotation-vector", frame, angular_velocity: 13 }) }), track);
+      const expected = frame === "world" ? product(added, start) : product(start, added);
+      motion.orientation(0.5).forEach((each, i) => expect(each).toBeCloseTo(expected[i], 15));
+      const w = frame === "world" ? [1, 2, 3] : rotated(expected, [1, 2, 3]);
+      motion.angularVelocity(0.5).forEach((each, i) => expect(each).toBeCloseTo(w[i], 14));
+    }
+  });
+
+  it("has the energy of rotation about any axis of its inertia", () => {
+    const state = [0, 0, 0, 0, 0, 0, ...quaternionOfRotationVector([0, 0, Math.PI / 2]), 2, 0, 0];
+    const track = new Track(Float64Array.from([0, 1, 0, 0, ...state]), state.length);
+    const inertia: RotationData["inertia"] = [[1, 0, 0], [0, 7, 0], [0, 0, 3]]; // prettier-ignore
+    // the world's x axis is the body's -y axis: 7 * 2^2 / 2
+    const motion = new BodyMotion(body({ mass: 1, rotation: rotation({ kind: "quaternion", inertia }) }), track);
+    expect(motion.rotationEnergy(0.5)).toBeCloseTo(14, 14);
   });
 });
