@@ -154,19 +154,20 @@ class AdaptiveRungeKutta : public RungeKuttaBase<Method, Rate, Dim> {
       const bool lands = h * kStretch >= distance;
       this->step_.template compute<false, true>(lands ? t_limit : t0 + direction * h, this->rate_);
       this->statistics_.law_evaluations += Base::Step::kInnerEvaluations + 1;
-      const double error = this->step_.error_norm(atol_, rtol_);
+      const double log_error = this->step_.log2_error_norm(atol_, rtol_);
       if (lands) h = distance;
-      if (error <= 1.0) {
-        const double proposed = h * controller_.accepted(error);
+      if (log_error <= 0.0) {
+        const double proposed = h * controller_.accepted_log2(log_error);
         next_step_ = lands ? std::max(proposed, next_step_) : proposed;
         ++this->statistics_.steps;
         return StepStatus::ok;
       }
-      h *= controller_.rejected(error);
+      const bool is_finite = log_error < Base::Step::kLog2NotFinite;
+      h *= is_finite ? controller_.rejected_log2(log_error) : controller_.rejected(HUGE_VAL);
       ++this->statistics_.rejected_steps;
       if (!(h >= smallest_step(t0))) {
         this->undo_step();
-        return std::isfinite(error) ? StepStatus::step_too_small : StepStatus::not_finite;
+        return is_finite ? StepStatus::step_too_small : StepStatus::not_finite;
       }
       next_step_ = h;
     }

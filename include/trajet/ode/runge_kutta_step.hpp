@@ -12,6 +12,7 @@
 
 #include "trajet/math/force_inline.hpp"
 #include "trajet/ode/segment.hpp"
+#include "trajet/ode/step_control.hpp"
 #include "trajet/ode/step_state.hpp"
 #include "trajet/ode/tableau.hpp"
 
@@ -93,15 +94,23 @@ class RungeKuttaStep {
         largest_component([&](Eigen::Index b, Block & x) __attribute__((always_inline)) { x = q1_[b]; }));
   }
 
-  /// The largest component of the error estimate over its tolerance atol + rtol |q|, |q| the larger one of both ends;
-  /// NaN if any is. `atol` > 0.
-  TRAJET_INLINE double error_norm(double atol, double rtol) const {
+  /// log2 of the largest component of the error estimate over its tolerance atol + rtol |q|, |q| the larger one of both
+  /// ends, within 0.003; above 1000 if it is not finite. `atol` > 0.
+  ///
+  /// The step's successor waits for this number: as a logarithm it needs neither square root nor division.
+  TRAJET_INLINE double log2_error_norm(double atol, double rtol) const {
     const double first = difference_norm<ErrorWeights>(atol, rtol);
-    if constexpr (kHasSecondCompanion<Method>)
-      return of_both_companions(first, difference_norm<SecondErrorWeights>(atol, rtol));
-    else
-      return first;
+    if constexpr (kHasSecondCompanion<Method>) {
+      const double second = difference_norm<SecondErrorWeights>(atol, rtol);
+      const double sum = first * first + 0.01 * (second * second);
+      if (!(sum <= std::numeric_limits<double>::max())) return kLog2NotFinite;
+      return 2.0 * rough_log2(first) - 0.5 * rough_log2(sum);
+    } else {
+      return rough_log2(first);
+    }
   }
+  /// What rough_log2 makes of infinity, and more of what is not a number.
+  static constexpr double kLog2NotFinite = 1024.0;
 
   /// The largest component at the end over the tolerance there: of the state, of the rate after evaluate_end(), and of
   /// the change of the rate in a step `h` of Euler's method, which spoils the first stage. `atol` > 0.

@@ -53,44 +53,53 @@ class StepController {
 
   /// Forgets the errors of the past.
   void reset() {
-    previous_ = kErrorFloor;
+    log_previous_ = kLogErrorFloor;
     rejected_ = false;
   }
 
   /// By how much to multiply the step after one of error `error` <= 1 was accepted.
-  double accepted(double error) {
-    const double previous = previous_;
+  double accepted(double error) { return accepted_log2(detail::rough_log2(error)); }
+
+  /// The same for log2(error) <= 0.
+  double accepted_log2(double log_error) {
+    const double log_previous = log_previous_;
     const bool after_rejection = rejected_;
-    previous_ = error;
+    log_previous_ = log_error;
     rejected_ = false;
     // Nearly right, and not about to be wrong if it grows once more as it just did: keep the step. The processor then
     // foresees it and starts on the next one before the error is known.
-    if (error >= kKeepFrom && error <= kKeepTo && error * error <= kKeepTo * previous) return 1.0;
-    const double log_factor =
-        kLogSafety - alpha_ * detail::rough_log2(error) + beta_ * detail::rough_log2(std::max(previous, kErrorFloor));
+    if (log_error >= kLogKeepFrom && log_error <= kLogKeepTo && 2.0 * log_error <= kLogKeepTo + log_previous)
+      return 1.0;
+    const double log_factor = kLogSafety - alpha_ * log_error + beta_ * std::max(log_previous, kLogErrorFloor);
     // A step that follows a rejection must not grow: it would be rejected again.
     return detail::rough_exp2(std::clamp(log_factor, kLogSmallest, after_rejection ? 0.0 : kLogLargest));
   }
 
   /// By how much to multiply the step after one of error `error` > 1, or not finite, was rejected.
   double rejected(double error) {
+    if (std::isfinite(error)) return rejected_log2(detail::rough_log2(error));
     rejected_ = true;
-    if (!std::isfinite(error)) return 0.1;  // no error to go by: leave the neighbourhood of the singularity fast
-    return detail::rough_exp2(std::max(kLogSafety - alpha_rejected_ * detail::rough_log2(error), kLogSmallest));
+    return 0.1;  // no error to go by: leave the neighbourhood of the singularity fast
+  }
+
+  /// The same for log2(error) > 0 of a finite error.
+  double rejected_log2(double log_error) {
+    rejected_ = true;
+    return detail::rough_exp2(std::max(kLogSafety - alpha_rejected_ * log_error, kLogSmallest));
   }
 
  private:
-  static constexpr double kLogSafety = -0.15200309344504997;   // log2(0.9)
-  static constexpr double kLogSmallest = -2.3219280948873623;  // log2(0.2)
-  static constexpr double kLogLargest = 3.3219280948873623;    // log2(10)
-  static constexpr double kKeepFrom = 0.4;                     // a better step would be a tenth longer at most
-  static constexpr double kKeepTo = 0.95;
-  static constexpr double kErrorFloor = 1e-4;  // one lucky step must not dominate the next
+  static constexpr double kLogSafety = -0.15200309344504997;     // log2(0.9)
+  static constexpr double kLogSmallest = -2.3219280948873623;    // log2(0.2)
+  static constexpr double kLogLargest = 3.3219280948873623;      // log2(10)
+  static constexpr double kLogKeepFrom = -1.3219280948873623;    // log2(0.4): a better step is a tenth longer at most
+  static constexpr double kLogKeepTo = -0.07400058144377693;     // log2(0.95)
+  static constexpr double kLogErrorFloor = -13.287712379549449;  // log2(1e-4): one lucky step must not rule the next
 
   double beta_;
   double alpha_;
   double alpha_rejected_;
-  double previous_ = kErrorFloor;
+  double log_previous_ = kLogErrorFloor;
   bool rejected_ = false;
 };
 
