@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <iterator>
 #include <string>
 #include <vector>
 
@@ -11,6 +12,10 @@
 /// Runs all benchmarks, then prints for each problem and accuracy the fastest run of each contender that reached it.
 namespace trajet::bench {
 namespace {
+
+/// Of the contenders, in their order.
+constexpr const char* kNames[] = {"law", "scene", "odeint", "gsl", "sundials"};
+static_assert(std::size(kNames) == std::size(kContenders));
 
 struct Measurement {
   Case properties;
@@ -28,7 +33,7 @@ class Collector : public benchmark::BenchmarkReporter {
 
   void ReportRuns(const std::vector<Run>& runs) override {
     for (const Run& run : runs) {
-      if (run.run_type != Run::RT_Aggregate || run.aggregate_name != "median") continue;
+      if (run.error_occurred || run.run_type != Run::RT_Aggregate || run.aggregate_name != "median") continue;
       const auto error = run.counters.find("error");
       all_.push_back({case_of(run.run_name.function_name), run.GetAdjustedCPUTime(),
                       error == run.counters.end() ? 0.0 : error->second.value});
@@ -57,18 +62,44 @@ const Measurement* fastest(const std::vector<Measurement>& all, const std::strin
   return best;
 }
 
-void print_entry(const Measurement* m) {
-  if (m == nullptr)
-    std::printf(" | %-34s", "-");
-  else
-    std::printf(" | %8.3f us  %-13s %.0e", m->microseconds, m->properties.method.c_str(), m->error);
+std::string entry(const Measurement* m) {
+  if (m == nullptr) return "-";
+  char text[64];
+  std::snprintf(text, sizeof text, "%9.3f %-15s %.0e", m->microseconds, m->properties.method.c_str(), m->error);
+  return text;
 }
 
-void print_ratio(const Measurement* ours, const Measurement* peer) {
-  if (ours == nullptr || peer == nullptr)
-    std::printf(" |     -");
-  else
-    std::printf(" | %5.2f", ours->microseconds / peer->microseconds);
+/// Our time over the best peer's, or a dash.
+std::string ratio(const Measurement* ours, const Measurement* peer) {
+  if (ours == nullptr || peer == nullptr) return "-";
+  char text[16];
+  std::snprintf(text, sizeof text, "%.2f", ours->microseconds / peer->microseconds);
+  return text;
+}
+
+/// The fastest run of each contender at each accuracy, and ours over the best of all peers.
+void print_table(const std::vector<Measurement>& all, const std::string& problem) {
+  std::printf("\n%s: the fastest run whose error at the end is within the accuracy: time [us], method, its own error\n",
+              problem.c_str());
+  std::printf("%-8s", "accuracy");
+  for (const char* name : kNames) std::printf(" | %-31s", name);
+  std::printf(" | law/  | scene/\n%-8s", "");
+  for (std::size_t i = 0; i < std::size(kNames); ++i) std::printf(" | %-31s", "");
+  std::printf(" | peers | peers\n");
+  for (int digits = 4; digits <= 14; digits += 2) {
+    const double accuracy = std::pow(10.0, -digits);
+    const Measurement* best[std::size(kContenders)];
+    const Measurement* best_peer = nullptr;
+    std::printf("%-8.0e", accuracy);
+    for (std::size_t i = 0; i < std::size(kContenders); ++i) {
+      best[i] = fastest(all, problem, kContenders[i], accuracy);
+      std::printf(" | %-31s", entry(best[i]).c_str());
+      const bool leads =
+          best[i] != nullptr && (best_peer == nullptr || best[i]->microseconds < best_peer->microseconds);
+      if (i >= kFirstPeer && leads) best_peer = best[i];
+    }
+    std::printf(" | %5s | %5s\n", ratio(best[0], best_peer).c_str(), ratio(best[1], best_peer).c_str());
+  }
 }
 
 void print_tables(const std::vector<Measurement>& all) {
@@ -79,42 +110,29 @@ void print_tables(const std::vector<Measurement>& all) {
   std::printf("%-44s %12s %12s\n", "case", "time [us]", "error");
   for (const Measurement& m : all)
     std::printf("%-44s %12.3f %12.2e\n", name_of(m.properties).c_str(), m.microseconds, m.error);
-  for (const std::string& problem : problems) {
-    std::printf("\n%s: the fastest run whose error at the end is within the accuracy (its own error behind it)\n",
-                problem.c_str());
-    std::printf("%-8s | %-34s | %-34s | %-34s | law/  | scene/\n", "accuracy", "trajet, C++ law", "trajet, scene",
-                "Boost.odeint");
-    std::printf("%-8s | %-34s | %-34s | %-34s | odeint| odeint\n", "", "", "", "");
-    for (int digits = 4; digits <= 14; digits += 2) {
-      const double accuracy = std::pow(10.0, -digits);
-      const Measurement* law = fastest(all, problem, Contender::law, accuracy);
-      const Measurement* scene = fastest(all, problem, Contender::scene, accuracy);
-      const Measurement* odeint = fastest(all, problem, Contender::odeint, accuracy);
-      std::printf("%-8.0e", accuracy);
-      for (const Measurement* m : {law, scene, odeint}) print_entry(m);
-      print_ratio(law, odeint);
-      print_ratio(scene, odeint);
-      std::printf("\n");
-    }
-  }
+  for (const std::string& problem : problems) print_table(all, problem);
 }
 
 }  // namespace
 
 std::string name_of(const Case& properties) {
-  static constexpr const char* kContenders[] = {"law", "scene", "odeint"};
-  return properties.problem + "/" + kContenders[static_cast<int>(properties.contender)] + "/" + properties.method;
+  return properties.problem + "/" + kNames[static_cast<int>(properties.contender)] + "/" + properties.method;
 }
 
 Case case_of(const std::string& name) {
   const std::size_t first = name.find('/'), second = name.find('/', first + 1);
   const std::string contender = name.substr(first + 1, second - first - 1);
-  return {name.substr(0, first),
-          contender == "law"     ? Contender::law
-          : contender == "scene" ? Contender::scene
-                                 : Contender::odeint,
-          name.substr(second + 1)};
+  const auto found = std::find(std::begin(kNames), std::end(kNames), contender);
+  return {name.substr(0, first), kContenders[found - std::begin(kNames)], name.substr(second + 1)};
 }
+
+std::string labelled(const char* method, double tolerance) {
+  char text[64];
+  std::snprintf(text, sizeof text, "%s:%.0e", method, tolerance);
+  return text;
+}
+
+std::string labelled(const char* method, int steps) { return method + std::string(":") + std::to_string(steps); }
 
 }  // namespace trajet::bench
 
@@ -129,7 +147,11 @@ int main(int argc, char** argv) {
   int count = static_cast<int>(arguments.size());
   benchmark::Initialize(&count, arguments.data());
   if (benchmark::ReportUnrecognizedArguments(count, arguments.data())) return 2;
-  trajet::bench::add_smooth_problems();
+  trajet::bench::add_laws();
+  trajet::bench::add_scenes();
+  trajet::bench::add_odeint();
+  trajet::bench::add_gsl();
+  trajet::bench::add_sundials();
   trajet::bench::add_rifle_shot();
   trajet::bench::Collector collector;
   benchmark::RunSpecifiedBenchmarks(&collector);

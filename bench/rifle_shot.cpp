@@ -108,7 +108,7 @@ void add_odeint_search(const Shot& shot) {
       }
       if (impact != HUGE_VAL) return std::abs(impact - shot.exact_time());
     }
-    return HUGE_VAL;
+    return kFailed;
   });
 }
 

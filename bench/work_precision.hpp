@@ -6,8 +6,14 @@
 
 namespace trajet::bench {
 
-/// Who did the work of a case. The table sets the best of each beside the others.
-enum class Contender { law, scene, odeint };
+/// Who did the work of a case. The tables set the best of each beside the others.
+enum class Contender { law, scene, odeint, gsl, sundials };
+inline constexpr Contender kContenders[] = {Contender::law, Contender::scene, Contender::odeint, Contender::gsl,
+                                            Contender::sundials};
+inline constexpr int kFirstPeer = 2;  ///< the contenders before it are trajet's
+
+/// An error that no run which came to its end has.
+inline constexpr double kFailed = 1e100;
 
 /// One run of a problem: what the table needs to know of it.
 struct Case {
@@ -16,14 +22,18 @@ struct Case {
   std::string method;  ///< with its tolerance or step
 };
 
-/// Registers `solve`, which solves the problem once and returns the error at its end. The error is printed with the
-/// time.
+/// Registers `solve`, which solves the problem once and returns the error at its end, or `kFailed`, or not a number.
+/// The error is printed with the time.
 template <class Solve>
 void add_case(const Case& properties, Solve solve);
 
 /// Encodes a case in a benchmark's name, and reads it back from there.
 std::string name_of(const Case& properties);
 Case case_of(const std::string& name);
+
+/// A method with its tolerance, or its number of steps.
+std::string labelled(const char* method, double tolerance);
+std::string labelled(const char* method, int steps);
 
 template <class Solve>
 void add_case(const Case& properties, Solve solve) {
@@ -33,12 +43,17 @@ void add_case(const Case& properties, Solve solve) {
       error = solve();
       benchmark::DoNotOptimize(error);
     }
+    if (!(error < kFailed)) state.SkipWithError("failed");
     state.counters["error"] = error;
   })->Unit(benchmark::kMicrosecond);
 }
 
 /// The cases of each file.
-void add_smooth_problems();
+void add_laws();
+void add_scenes();
 void add_rifle_shot();
+void add_odeint();
+void add_gsl();
+void add_sundials();
 
 }  // namespace trajet::bench
