@@ -6,7 +6,7 @@ CONFIGURE := cmake -DTRAJET_WERROR=$(WERROR) >/dev/null --preset
 BUILD     := cmake --build --parallel $(JOBS) --preset
 DEMO      := build/demo
 
-.PHONY: help setup build demo test asan clang tidy bench format
+.PHONY: help setup build demo docs test asan clang tidy bench format
 .DEFAULT_GOAL := help
 
 help: ## list these targets
@@ -22,6 +22,10 @@ build: ## the program: build/release/trajet
 demo: setup build ## set up, build, and fly the rifle shot; its files go to build/demo/
 	@mkdir -p $(DEMO)
 	build/release/trajet run examples/notes/rifle_shot.toml --json $(DEMO)/rifle_shot.json --csv $(DEMO)/rifle_shot.csv
+
+docs: setup build ## remake the gallery of docs/: a picture of every example
+	@scripts/setup browser
+	@node viewer/tools/gallery.mjs build/release/trajet $$(command -v chromium)
 
 test: setup ## set up, build, and run all tests
 	-@scripts/setup browser

@@ -17,8 +17,10 @@ export interface Visibility {
   axes: boolean;
 }
 
-/** px: the length of the arrow of the largest velocity or acceleration, of a body's axes, of a body too small to see. */
+/** px: the length of the arrow of the largest velocity or acceleration, at most this part of the picture's height. */
 const kArrowPixels = 110;
+const kArrowPart = 0.2;
+/** px: the length of a body's axes, and the size of a body too small to see. */
 const kAxisPixels = 45;
 const kDotPixels = 9;
 
@@ -137,8 +139,11 @@ export class Actor {
     this.group.add(this.body3d, this.dot, this.velocity, this.acceleration, this.axes, this.way, this.tip, this.wholeWay);
   }
 
-  /** Puts everything where it is at time t. `pixel`: the size of a pixel of the screen there, in the drawing. */
-  update(t: number, shown: Visibility, pixel: (at: THREE.Vector3) => number): void {
+  /**
+   * Puts everything where it is at time t. `pixel`: the size of a pixel of the screen at a place of the drawing; `height`:
+   * px, of the picture.
+   */
+  update(t: number, shown: Visibility, pixel: (at: THREE.Vector3) => number, height: number): void {
     const { motion } = this;
     const local = this.frame.toView(motion.position(t));
     this.place.copy(local).add(this.offset);
@@ -150,8 +155,9 @@ export class Actor {
     this.dot.position.copy(local);
     this.dot.visible = this.reach < 0.5 * kDotPixels * size;
 
-    point(this.velocity, local, motion.velocity(t), this.mostSpeed, shown.velocity, kArrowPixels * size);
-    point(this.acceleration, local, motion.acceleration(t), this.mostAcceleration, shown.acceleration, kArrowPixels * size);
+    const longest = Math.min(kArrowPixels, kArrowPart * height) * size;
+    point(this.velocity, local, motion.velocity(t), this.mostSpeed, shown.velocity, longest);
+    point(this.acceleration, local, motion.acceleration(t), this.mostAcceleration, shown.acceleration, longest);
     this.axes.visible = shown.axes && motion.turns;
     this.axes.position.copy(local);
     this.axes.quaternion.copy(turn);

@@ -72,6 +72,12 @@ export class App {
     return this.runs[run].body(body)!.position(t);
   }
 
+  /** The whole scene in the picture. */
+  showAll(): void {
+    this.stage?.showAll();
+    this.isStale = true;
+  }
+
   private onFrame(now: number): void {
     // After a pause of the browser itself the motion goes on from where it was.
     const seconds = Math.min(0.1, (now - this.lastFrame) / 1000);

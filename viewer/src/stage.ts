@@ -14,6 +14,8 @@ import { kViewSize, sceneBox, ViewFrame } from "./view_frame";
 const kMostImpactLabels = 60;
 /** A ghost is seen through. */
 const kGhostOpacity = 0.45;
+/** px around a body that texts leave free. */
+const kBodyPixels = 8;
 const kFieldOfViewDegrees = 35;
 
 /** The colour of a body: its own in a single run, its run's where several are compared. */
@@ -160,7 +162,7 @@ export class Stage {
   follow(body: string | null): void {
     const actor = this.actors[0]?.find((each) => each.motion.name === body) ?? null;
     if (actor && actor !== this.followed) {
-      actor.update(this.time, this.shown, () => 0);
+      actor.update(this.time, this.shown, () => 0, 0);
       const reach = Math.max(actor.reach, 0.002 * kViewSize);
       const away = this.camera.position.clone().sub(this.controls.target).normalize();
       this.controls.target.copy(actor.place);
@@ -205,6 +207,16 @@ export class Stage {
     }));
   }
 
+  /** Where the bodies of the first run are on the screen: texts keep clear of them. */
+  private bodyAreas(width: number, height: number): Area[] {
+    return this.actors[0].map(({ place }) => {
+      const point = place.clone().project(this.camera);
+      const x = (0.5 + 0.5 * point.x) * width;
+      const y = (0.5 - 0.5 * point.y) * height;
+      return { left: x - kBodyPixels, top: y - kBodyPixels, right: x + kBodyPixels, bottom: y + kBodyPixels };
+    });
+  }
+
   render(t: number): void {
     this.time = t;
     const worldPixel = (2 * Math.tan(THREE.MathUtils.degToRad(kFieldOfViewDegrees / 2))) / this.container.clientHeight;
@@ -215,7 +227,7 @@ export class Stage {
       this.runGroups[run].visible = run === 0 || this.showsGhosts;
       const markers = this.runGroups[run].getObjectByName("impacts");
       if (markers) markers.visible = this.showsImpacts;
-      for (const actor of actors) actor.update(t, this.shown, pixel);
+      for (const actor of actors) actor.update(t, this.shown, pixel, this.container.clientHeight);
     });
     if (this.followed) {
       const moved = this.followed.place.clone().sub(this.followedPlace);
@@ -230,6 +242,7 @@ export class Stage {
     this.camera.updateProjectionMatrix();
     this.camera.updateMatrixWorld();
     this.renderer.render(this.scene, this.camera);
-    this.labels.update(this.camera, this.container.clientWidth, this.container.clientHeight, this.occupied);
+    const { clientWidth: width, clientHeight: height } = this.container;
+    this.labels.update(this.camera, width, height, [...this.occupied, ...this.bodyAreas(width, height)]);
   }
 }
