@@ -4,6 +4,8 @@
 #include <array>
 #include <utility>
 
+#include "trajet/ode/cvode.hpp"
+#include "trajet/ode/gauss.hpp"
 #include "trajet/ode/implicit_stepper.hpp"
 #include "trajet/ode/rosenbrock.hpp"
 #include "trajet/ode/runge_kutta.hpp"
@@ -45,6 +47,19 @@ std::unique_ptr<AnyStepper> make_implicit(System& system, const StepOptions& opt
   return std::make_unique<WrappedStepper<S>>(S(SystemRate(system), options));
 }
 
+std::unique_ptr<AnyStepper> make_gauss(System& system, const StepOptions& options) {
+  using S = GaussStepper<SystemRate, Eigen::Dynamic>;
+  return std::make_unique<WrappedStepper<S>>(S(SystemRate(system), options));
+}
+
+#ifdef TRAJET_WITH_SUNDIALS
+template <MultistepFormula Formula>
+std::unique_ptr<AnyStepper> make_multistep(System& system, const StepOptions& options) {
+  using S = CvodeStepper<SystemRate, Eigen::Dynamic>;
+  return std::make_unique<WrappedStepper<S>>(S(Formula, SystemRate(system), system.dimension(), options));
+}
+#endif
+
 std::unique_ptr<AnyStepper> make_taylor(System& system, const StepOptions& options) {
   using S = TaylorStepper<SystemExpansion>;
   return std::make_unique<WrappedStepper<S>>(S(SystemExpansion(system), options));
@@ -65,6 +80,17 @@ MethodInfo implicit(std::string_view name, Aliases aliases, std::string_view kno
           summary, make_implicit<Method>};
 }
 
+MethodInfo gauss(std::string_view name, Aliases aliases, std::string_view known_as, std::string_view summary) {
+  return {name, std::move(aliases), 6, 3, StepControl::fixed, known_as, summary, make_gauss};
+}
+
+#ifdef TRAJET_WITH_SUNDIALS
+template <MultistepFormula Formula>
+MethodInfo multistep(std::string_view name, Aliases aliases, std::string_view known_as, std::string_view summary) {
+  return {name, std::move(aliases), 0, 0, StepControl::adaptive, known_as, summary, make_multistep<Formula>};
+}
+#endif
+
 MethodInfo series(std::string_view name, Aliases aliases, std::string_view known_as, std::string_view summary) {
   return {name, std::move(aliases), 0, 0, StepControl::adaptive, known_as, summary, make_taylor};
 }
@@ -78,6 +104,13 @@ std::span<const MethodInfo> methods() {
       runge_kutta<Rk4Tableau>("rk4", {}, "course: Runge-Kutta 4, SEDRK4t0 (F38)", "Kutta's classical method"),
       runge_kutta<Dopri5Tableau>("dopri5", {"ode45"}, "MATLAB: ode45 (F59)", "Dormand and Prince's pair 5(4)"),
       runge_kutta<Dop853Tableau>("dop853", {}, "", "Dormand and Prince's method 8(5,3)"),
+      gauss("gauss6", {}, "", "Gauss collocation, symplectic: long runs keep their energy"),
+#ifdef TRAJET_WITH_SUNDIALS
+      multistep<MultistepFormula::adams>("adams", {"ode113"}, "MATLAB: ode113 (F59)",
+                                         "Adams, orders 1 to 12, SUNDIALS CVODE"),
+      multistep<MultistepFormula::bdf>("bdf", {"ode15s"}, "MATLAB: ode15s (F59)",
+                                       "stiff: backward differentiation, orders 1 to 5, SUNDIALS CVODE"),
+#endif
       implicit<RosenbrockMethod<Rosenbrock23Tableau>>("rosenbrock23", {"ode23s"}, "MATLAB: ode23s (F59)",
                                                       "stiff: Shampine and Reichelt's Rosenbrock pair 2(3)"),
       implicit<TrapezoidFormula>("trapezoid", {"ode23t"}, "MATLAB: ode23t (F59)",

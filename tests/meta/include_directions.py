@@ -27,6 +27,11 @@ ALLOWED["apps"] = ALLOWED["io"] | {"io", "viz"}
 LEAVES = {"error", "version"}
 # Which layers may include a library, by the first folder or the name of its header.
 LIBRARIES = {
+    "cvode": {"ode"},
+    "nvector": {"ode"},
+    "sunlinsol": {"ode"},
+    "sunmatrix": {"ode"},
+    "sunnonlinsol": {"ode"},
     "toml++": {"io"},
     "udunits2.h": {"io"},
     "tiny_gltf.h": {"io"},

@@ -30,6 +30,9 @@ TEST(Registry, EveryMethodHasAPageThatNamesItsAliases) {
 TEST(Registry, EveryPageIsOfAMethod) {
   for (const auto& page : std::filesystem::directory_iterator(std::filesystem::path(TRAJET_SOURCE_DIR) / "docs/methods")) {
     const std::string name = page.path().stem().string();
+#ifndef TRAJET_WITH_SUNDIALS
+    if (name == "adams" || name == "bdf") continue;
+#endif
     const MethodInfo* method = find_method(name);
     EXPECT_TRUE(method != nullptr && method->name == name) << page.path() << " is of no method";
   }
