@@ -62,7 +62,8 @@ class ImplicitStepper {
         ++step_.statistics().steps;
         return StepStatus::ok;
       }
-      h *= std::isinf(error) ? kUnsolved : controller_.rejected(error);
+      const double factor = controller_.rejected(error);
+      h *= std::isinf(error) ? kUnsolved : factor;
       ++step_.statistics().rejected_steps;
       if (!(h >= smallest_step(t0))) {
         step_.undo();
