@@ -88,7 +88,7 @@ Json body_data(const World::Body& body) {
   if (body.radius > 0.0) shape["radius"] = body.radius;
   return {{"name", body.name},       {"shape", shape},          {"mass", constant_mass(body)},
           {"group", body.group},     {"position", body.offset}, {"velocity", body.offset + 3},
-          {"attitude", {1, 0, 0, 0}}};
+          {"points", Json::array()}, {"attitude", {1, 0, 0, 0}}};
 }
 
 }  // namespace

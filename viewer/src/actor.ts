@@ -5,7 +5,7 @@ import { LineMaterial } from "three/addons/lines/LineMaterial.js";
 import type { Vector } from "./data";
 import { type BodyMotion, length } from "./motion";
 import { trailOf } from "./sampling";
-import { bodyGeometry, reach } from "./shapes";
+import { bodyGeometry, reach, vector } from "./shapes";
 import { kComponentColors, kQuantityColors } from "./theme";
 import { kViewSize, type ViewFrame } from "./view_frame";
 
@@ -91,7 +91,7 @@ export class Actor {
     readonly color: string,
     opacity: number,
   ) {
-    this.reach = reach(motion.data.shape) * frame.scale;
+    this.reach = reach(motion.data) * frame.scale;
     const trail = trailOf(motion, (1e-4 * kViewSize) / frame.scale);
     this.times = trail.times;
     this.points = trail.points.map((point) => frame.toView(point));
@@ -114,7 +114,8 @@ export class Actor {
           ),
         );
     }
-    this.body3d.scale.setScalar(frame.scale);
+    this.addPoints(color, opacity);
+    this.body3d.matrixAutoUpdate = false;
     this.dot = dots([new THREE.Vector3()], color, kDotPixels, opacity);
     this.velocity = arrow(kQuantityColors.velocity, opacity);
     this.acceleration = arrow(kQuantityColors.acceleration, opacity);
@@ -139,6 +140,25 @@ export class Actor {
     this.group.add(this.body3d, this.dot, this.velocity, this.acceleration, this.axes, this.way, this.tip, this.wholeWay);
   }
 
+  /** Named points as dots, and, of a body without a shape, rods to them from the centre of mass. */
+  private addPoints(color: string, opacity: number): void {
+    const { points, shape } = this.motion.data;
+    const { Mesh, SphereGeometry, CylinderGeometry, MeshStandardMaterial, Vector3, Quaternion } = THREE;
+    const material = new MeshStandardMaterial({ color, roughness: 0.5, transparent: opacity < 1, opacity });
+    const thickness = 0.035 * reach(this.motion.data);
+    for (const { position } of points) {
+      const end = vector(position);
+      const dot = new Mesh(new SphereGeometry(1.4 * thickness, 20, 14), material);
+      dot.position.copy(end);
+      this.body3d.add(dot);
+      if (shape.kind !== "point" || end.length() === 0) continue;
+      const rod = new Mesh(new CylinderGeometry(thickness, thickness, end.length(), 20), material);
+      rod.position.copy(end).multiplyScalar(0.5);
+      rod.quaternion.copy(new Quaternion().setFromUnitVectors(new Vector3(0, 1, 0), end.clone().normalize()));
+      this.body3d.add(rod);
+    }
+  }
+
   /**
    * Puts everything where it is at time t. `pixel`: the size of a pixel of the screen at a place of the drawing; `height`:
    * px, of the picture.
@@ -150,8 +170,10 @@ export class Actor {
     const size = pixel(this.place);
     const [w, x, y, z] = motion.orientation(t);
     const turn = new THREE.Quaternion(x, y, z, w);
-    this.body3d.position.copy(local);
-    this.body3d.quaternion.copy(turn);
+    const s = this.frame.scale;
+    const [xx, xy, xz, yx, yy, yz, zx, zy, zz] = motion.carriedMatrix(t).map((each) => s * each);
+    this.body3d.matrix.set(xx, xy, xz, local.x, yx, yy, yz, local.y, zx, zy, zz, local.z, 0, 0, 0, 1);
+    this.body3d.matrixWorldNeedsUpdate = true;
     this.dot.position.copy(local);
     this.dot.visible = this.reach < 0.5 * kDotPixels * size;
 

@@ -28,9 +28,8 @@ export interface Impact {
 export type BodyShape =
   | { kind: "point" }
   | { kind: "sphere"; radius: number }
-  | { kind: "box"; size: Vector }
   | { kind: "soccer-ball"; radius: number }
-  /** Triangles: indices of three vertices each. */
+  /** A box, a hull or a mesh. Triangles: indices of three vertices each. */
   | { kind: "mesh"; vertices: Vector[]; triangles: Vector[] };
 
 export interface BodyData {
@@ -42,6 +41,8 @@ export interface BodyData {
   /** The first component of p_WB, and of v_WB, in the group's state. */
   position: number;
   velocity: number;
+  /** Named points in the body's frame, m. */
+  points: { name: string; position: Vector }[];
   /** Where the body does not turn: how it stands, (w, x, y, z). */
   attitude: [number, number, number, number];
   /** Where it turns. */

@@ -42,6 +42,20 @@ export class BodyMotion {
     return rotation.frame === "world" ? product(added, q) : product(q, added);
   }
 
+  /**
+   * What carries the body's frame into the world as the numbers have it, row by row: not quite a rotation where the method
+   * lets |q| or det R drift; the body then grows or shrinks.
+   */
+  carriedMatrix(t: number, piece = this.track.pieceAt(t)): number[] {
+    const { rotation } = this.data;
+    if (rotation?.kind === "matrix") return this.components(t, piece, rotation.component, 9);
+    const q = this.orientation(t, piece);
+    // q v q* of a quaternion that is not unit stretches by |q|^2
+    const stretch = (1 + this.orientationDefect(t, piece)) ** 2;
+    const columns = ([[1, 0, 0], [0, 1, 0], [0, 0, 1]] as Vector[]).map((axis) => rotated(q, axis)); // prettier-ignore
+    return [0, 1, 2].flatMap((row) => columns.map((column) => stretch * column[row]));
+  }
+
   /** rad/s, world frame. */
   angularVelocity(t: number, piece = this.track.pieceAt(t)): Vector {
     const { rotation } = this.data;

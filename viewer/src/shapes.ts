@@ -1,5 +1,5 @@
 import * as THREE from "three";
-import type { BodyShape, Vector } from "./data";
+import type { BodyData, BodyShape, Vector } from "./data";
 
 /** A polyhedron's faces, corners counterclockwise from outside. */
 interface Face {
@@ -86,18 +86,18 @@ function octantBall(light: THREE.Color, dark: THREE.Color): THREE.BufferGeometry
 
 export const vector = (v: Vector): THREE.Vector3 => new THREE.Vector3(v[0], v[1], v[2]);
 
-/** How far a shape reaches from the body's centre, m. */
-export function reach(shape: BodyShape): number {
+/** How far a body, with its named points, reaches from its centre, m. */
+export function reach({ shape, points }: BodyData): number {
+  const farthest = (ends: Vector[]): number => ends.reduce((most, end) => Math.max(most, Math.hypot(...end)), 0);
+  const ofPoints = farthest(points.map(({ position }) => position));
   switch (shape.kind) {
     case "point":
-      return 0;
+      return ofPoints;
     case "sphere":
     case "soccer-ball":
-      return shape.radius;
-    case "box":
-      return 0.5 * Math.hypot(...shape.size);
+      return Math.max(ofPoints, shape.radius);
     case "mesh":
-      return Math.max(...shape.vertices.map((vertex) => Math.hypot(...vertex)));
+      return Math.max(ofPoints, farthest(shape.vertices));
   }
 }
 
@@ -116,20 +116,9 @@ export function bodyGeometry(shape: BodyShape, color: string, turns: boolean): T
       const geometry = polyhedron(soccerBallFaces(), white, new THREE.Color("#1d1d22"));
       return geometry.scale(shape.radius, shape.radius, shape.radius);
     }
-    case "box": {
-      const box = new THREE.BoxGeometry(...shape.size).toNonIndexed();
-      return withColor(box, own);
-    }
     case "mesh": {
       const positions = shape.triangles.flatMap((triangle) => triangle.flatMap((corner) => shape.vertices[corner]));
-      return withColor(coloured(positions, positions), own);
+      return coloured(positions, shape.triangles.flatMap(() => [own, own, own].flatMap((each) => each.toArray())));
     }
   }
-}
-
-function withColor(geometry: THREE.BufferGeometry, color: THREE.Color): THREE.BufferGeometry {
-  const count = geometry.getAttribute("position").count;
-  const colors = Array.from({ length: count }, () => color.toArray()).flat();
-  geometry.setAttribute("color", new THREE.Float32BufferAttribute(colors as number[], 3));
-  return geometry;
 }

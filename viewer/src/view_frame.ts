@@ -57,7 +57,7 @@ export function sceneBox(runs: readonly Run[]): THREE.Box3 {
   for (const run of runs)
     for (const body of run.bodies) {
       const coarse = trailOf(body, 0.01 * roughSize(body, run));
-      const extra = reach(body.data.shape);
+      const extra = reach(body.data);
       for (const point of coarse.points) box.union(ball(point, extra));
     }
   if (box.isEmpty()) box.set(new THREE.Vector3(-1, -1, -1), new THREE.Vector3(1, 1, 1));

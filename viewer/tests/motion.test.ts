@@ -11,6 +11,7 @@ const body = (more: Partial<BodyData> = {}): BodyData => ({
   group: 0,
   position: 0,
   velocity: 3,
+  points: [],
   attitude: [1, 0, 0, 0],
   ...more,
 });
@@ -77,6 +78,10 @@ describe("an orientation", () => {
     motion.orientation(0.5).forEach((each, i) => expect(each).toBeCloseTo([0.6, 0, 0, 0.8][i], 15));
     expect(motion.orientationDefect(0.5)).toBeCloseTo(1, 15);
     expect(motion.angularVelocity(0.5)).toEqual([0, 0, 5]);
+    // a quarter turn and more about z, and |q|^2 = 4 times as large
+    const c = 4 * (0.36 - 0.64);
+    const s = 4 * 2 * 0.6 * 0.8;
+    motion.carriedMatrix(0.5).forEach((each, i) => expect(each).toBeCloseTo([c, -s, 0, s, c, 0, 0, 0, 4][i], 13));
   });
 
   it("is put together from a quaternion and a rotation vector, on the side of its frame", () => {
