@@ -56,7 +56,8 @@ test("a page plays a run from the file system, without network", async () => {
   assert.equal(await page.title(), report.title);
   await page.getByRole("button", { name: "Next impact" }).click();
   const [impact] = report.impacts;
-  assert.equal(await page.locator("output.time").textContent(), `${Number(impact.time.toPrecision(10))} s`);
+  const shownTime = `${Number(impact.time.toPrecision(10))} s`;
+  await page.waitForFunction((text) => document.querySelector("output.time").textContent === text, shownTime);
   assert.equal(await page.evaluate(() => window.trajet.time), impact.time);
 
   const last = report.final[0];
