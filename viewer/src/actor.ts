@@ -199,7 +199,11 @@ export class Actor {
     this.way.visible = isShown && low > 0;
     this.way.geometry.instanceCount = low;
     this.tip.visible = isShown;
-    this.tip.geometry.setPositions([...this.points[low].toArray(), ...local.toArray()]);
+    // both ends of the one line share a buffer
+    const ends = (this.tip.geometry.getAttribute("instanceStart") as THREE.InterleavedBufferAttribute).data;
+    this.points[low].toArray(ends.array, 0);
+    local.toArray(ends.array, 3);
+    ends.needsUpdate = true;
     this.wholeWay.visible = isShown;
   }
 }
