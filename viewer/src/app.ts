@@ -1,5 +1,5 @@
 import { Clock } from "./clock";
-import type { RunData, Vector } from "./data";
+import type { Report, RunData, Vector } from "./data";
 import { checkbox, element, iconButton, kIcons } from "./dom";
 import { helpDialog } from "./help";
 import { ImpactList } from "./impact_list";
@@ -8,6 +8,9 @@ import { Plots } from "./plots";
 import { colorOf, Stage } from "./stage";
 import { applyTheme, rememberTheme, type Theme } from "./theme";
 import { Timeline } from "./timeline";
+
+/** What the scene calls itself, or else the name of its file. */
+const titleOf = ({ title, scene }: Report): string => title || scene.split("/").pop() || "trajet";
 
 /** The page: a picture in space, plots, a timeline, and what keeps them in step. */
 export class App {
@@ -25,7 +28,7 @@ export class App {
     this.runs = data.map((each) => new Run(each));
     const [first] = this.runs;
     const { report } = first.data;
-    document.title = report.title || report.scene || "trajet";
+    document.title = titleOf(report);
     this.clock = new Clock(
       Math.min(...this.runs.map((run) => run.begin)),
       Math.max(...this.runs.map((run) => run.end)),
@@ -107,7 +110,7 @@ export class App {
     return element(
       "header",
       {},
-      element("h1", {}, report.title || report.scene),
+      element("h1", {}, titleOf(report)),
       element("span", { class: "methods" }, ...names),
       status,
       element("span", { class: "spacer" }),

@@ -233,7 +233,7 @@ export class Plots {
       width: this.container.clientWidth || 320,
       height: kHeight,
       legend: { show: false },
-      padding: [6, 14, 0, 0],
+      padding: [6, 24, 0, 0],
       pxAlign: false,
       scales: { x: { time: false, min: this.from, max: this.to }, y: { range: readableRange } },
       axes: [
