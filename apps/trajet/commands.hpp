@@ -30,6 +30,7 @@ struct RunArguments {
   std::string html;   ///< likewise
   std::string glb;    ///< likewise
   double fps = 60.0;  ///< keys a second of the glb
+  std::string plot;   ///< file name that ends in .svg, .png or .pdf, empty for none
   bool quiet = false;
 };
 
@@ -39,6 +40,7 @@ struct CompareArguments : RunArguments {
   std::vector<long> steps;
   std::vector<double> rtols;
   std::string reference;
+  std::string show;  ///< component that the figure shows, empty for the path
 };
 
 /// What `trajet view` takes from the command line.

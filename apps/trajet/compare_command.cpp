@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "commands.hpp"
+#include "plot_file.hpp"
 #include "run_monitor.hpp"
 #include "terminal.hpp"
 #include "text_table.hpp"
@@ -10,25 +11,58 @@
 #include "trajet/io/output_file.hpp"
 #include "trajet/io/scene_file.hpp"
 #include "trajet/sim/compare.hpp"
+#include "trajet/viz/compare_figure.hpp"
 
 namespace trajet {
 
 namespace {
 
-/// Shows how far a comparison is; Ctrl-C ends it with the rows so far.
+/// Shows how far a comparison is; Ctrl-C ends it with the rows so far. Keeps the motions for the figure, if there is
+/// one.
 class CompareMonitor : public CompareObserver {
  public:
+  explicit CompareMonitor(bool keeps_motions) : keeps_motions_(keeps_motions), monitor_(consumers()) {}
+
   RunObserver* begin_reference(const std::string& method) override {
     monitor_.set_label("reference by " + method);
     return &monitor_;
   }
   RunObserver* begin_row(const ComparisonRow& row, std::size_t index, std::size_t count) override {
+    keep_motion();
+    row_ = index;
+    curves_.resize(count);
     monitor_.set_label(fmt::format("{} ({} of {})", row.method, index + 1, count));
     return &monitor_;
   }
 
+  /// Removes the line of progress.
+  void clear() { monitor_.clear(); }
+  /// What `compare_figure` draws; call it when the comparison is done.
+  const std::vector<RowCurves>& curves() {
+    keep_motion();
+    return curves_;
+  }
+  bool has_motions() const { return row_.has_value(); }
+
  private:
+  std::vector<RunObserver*> consumers() {
+    return keeps_motions_ ? std::vector<RunObserver*>{&record_} : std::vector<RunObserver*>{};
+  }
+
+  /// That of the row that was run last.
+  void keep_motion() {
+    if (!keeps_motions_ || !row_) return;
+    RowCurves& curves = curves_[*row_];
+    curves.clear();
+    for (std::size_t g = 0; g < record_.world().groups.size(); ++g)
+      curves.push_back(make_curve(record_, static_cast<int>(g)));
+  }
+
+  bool keeps_motions_;
+  MotionRecord record_;
   RunMonitor monitor_;
+  std::optional<std::size_t> row_;
+  std::vector<RowCurves> curves_;
 };
 
 ComparePlan plan(const CompareArguments& arguments) {
@@ -105,18 +139,24 @@ int exit_code(const Comparison& comparison) {
 int compare_command(const CompareArguments& arguments) {
   if (arguments.json == "-" && arguments.csv == "-")
     throw InputError({"--csv"}, "only one of --json and --csv can go to standard output");
+  std::optional<PlotFile> plot;
+  if (!arguments.plot.empty()) plot.emplace(arguments.plot);
   Scene scene = read_scene(arguments.scene);
   apply(arguments.overrides, scene);
   const ComparePlan plan = trajet::plan(arguments);
-  check(scene, plan);  // a wrong scene must not cost the user an earlier report: files are opened behind this line
+  const World world = check(scene, plan);
+  std::optional<ShownComponent> shown;
+  if (!arguments.show.empty()) shown = find_component(world, arguments.show, {"--show"});
+  // A wrong scene must not cost the user an earlier report: files are opened behind this line.
   std::optional<OutputFile> json, csv;
   if (!arguments.json.empty()) json.emplace(arguments.json);
   if (!arguments.csv.empty()) csv.emplace(arguments.csv);
 
-  const Comparison comparison = [&] {
-    CompareMonitor monitor;
-    return compare(scene, plan, &monitor);
-  }();
+  if (plot) plot->open();
+
+  CompareMonitor monitor(plot.has_value());
+  const Comparison comparison = compare(scene, plan, &monitor);
+  monitor.clear();
 
   if (json) {
     json->write(compare_json(comparison));
@@ -126,6 +166,7 @@ int compare_command(const CompareArguments& arguments) {
     csv->write(compare_csv(comparison));
     csv->finish();
   }
+  if (plot && monitor.has_motions()) plot->write(compare_figure(comparison, world, monitor.curves(), shown));
   const bool stdout_has_data = arguments.json == "-" || arguments.csv == "-";
   if (!arguments.quiet && !stdout_has_data) {
     const bool color = wants_color(stdout);

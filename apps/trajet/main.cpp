@@ -34,6 +34,11 @@ void add_report_options(CLI::App& command, RunArguments& arguments) {
       ->type_name("FILE");
 }
 
+void add_plot_option(CLI::App& command, RunArguments& arguments) {
+  command.add_option("--plot", arguments.plot, "draw a figure there, as SVG, PNG or PDF by the end of the name")
+      ->type_name("FILE");
+}
+
 void add_compare_options(CLI::App& command, CompareArguments& arguments) {
   command.add_option("--methods", arguments.methods, "methods to compare, default: all")
       ->delimiter(',')
@@ -46,6 +51,8 @@ void add_compare_options(CLI::App& command, CompareArguments& arguments) {
       ->delimiter(',')
       ->check(CLI::PositiveNumber)
       ->type_name("X,...");
+  command.add_option("--show", arguments.show, "what --plot draws against time: ball.z, ball.vx or a state")
+      ->type_name("NAME");
   command
       .add_option("--reference", arguments.reference, "what to compare with: exact (the scene's [exact]) or a method")
       ->type_name("NAME");
@@ -72,6 +79,7 @@ int run_program(int argc, char** argv) {
   CLI::App& run = *app.add_subcommand("run", "compute one motion");
   add_scene_options(run, arguments);
   add_report_options(run, arguments);
+  add_plot_option(run, arguments);
   run.add_option("--html", arguments.html, "write a page that plays the motion there, - for standard output")
       ->type_name("FILE");
   run.add_option("--glb", arguments.glb, "write a glTF animation there, - for standard output")->type_name("FILE");
@@ -93,6 +101,7 @@ int run_program(int argc, char** argv) {
   CLI::App& compare = *app.add_subcommand("compare", "measure several methods against a reference");
   add_scene_options(compare, comparison);
   add_report_options(compare, comparison);
+  add_plot_option(compare, comparison);
   add_compare_options(compare, comparison);
   CLI::App& methods = *app.add_subcommand("methods", "list the integration methods");
   CLI::App& examples = *app.add_subcommand("examples", "list the built-in scenes, or print one");

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "commands.hpp"
+#include "plot_file.hpp"
 #include "run_monitor.hpp"
 #include "summary.hpp"
 #include "terminal.hpp"
@@ -16,6 +17,7 @@
 #include "trajet/io/scene_file.hpp"
 #include "trajet/sim/run.hpp"
 #include "trajet/viz/page.hpp"
+#include "trajet/viz/run_figure.hpp"
 
 namespace trajet {
 
@@ -38,6 +40,8 @@ int run_command(const RunArguments& arguments) {
   if (stdout_count > 1)
     throw InputError({"--csv"}, "only one of --json, --csv, --html and --glb can go to standard output");
   if (!arguments.html.empty() && !page_unavailable().empty()) throw FileError(page_unavailable());
+  std::optional<PlotFile> plot;
+  if (!arguments.plot.empty()) plot.emplace(arguments.plot);
   Scene scene = read_scene(arguments.scene);
   apply(arguments.overrides, scene);
   check(scene);  // a wrong scene must not cost the user an earlier report: files are opened behind this line
@@ -49,11 +53,12 @@ int run_command(const RunArguments& arguments) {
   MotionRecord motion;
   if (!arguments.html.empty()) html.emplace(arguments.html);
   if (!arguments.glb.empty()) glb.emplace(arguments.glb);
+  if (plot) plot->open();
 
   const RunResult result = [&] {
     std::vector<RunObserver*> consumers;
     if (csv_writer) consumers.push_back(&*csv_writer);
-    if (html || glb) consumers.push_back(&motion);
+    if (html || glb || plot) consumers.push_back(&motion);
     RunMonitor monitor(std::move(consumers));
     return run(scene, &monitor);
   }();
@@ -71,6 +76,7 @@ int run_command(const RunArguments& arguments) {
     glb->write(gltf_binary(motion, result, arguments.fps));
     glb->finish();
   }
+  if (plot) plot->write(run_figure(result, motion));
   if (!arguments.quiet && stdout_count == 0) {
     OutputFile out("-");
     out.write(summary(result, wants_color(stdout)));

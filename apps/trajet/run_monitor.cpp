@@ -38,8 +38,11 @@ RunMonitor::RunMonitor(std::vector<RunObserver*> consumers)
   sigaction(SIGINT, &action, nullptr);
 }
 
-RunMonitor::~RunMonitor() {
+RunMonitor::~RunMonitor() { clear(); }
+
+void RunMonitor::clear() {
   if (has_shown_) fmt::print(stderr, "\r\033[K");
+  has_shown_ = false;
 }
 
 void RunMonitor::begin(const World& world) {

@@ -18,11 +18,12 @@ class RunMonitor : public RunObserver {
   /// From now on Ctrl-C ends the run instead of the program; a second one ends the program. The consumers
   /// outlive the monitor.
   explicit RunMonitor(std::vector<RunObserver*> consumers = {});
-  /// Removes the line of progress.
   ~RunMonitor() override;
   RunMonitor(const RunMonitor&) = delete;
   RunMonitor& operator=(const RunMonitor&) = delete;
 
+  /// Removes the line of progress.
+  void clear();
   /// What stands before the progress of the runs that follow: "rk4, step 0.1 s (2 of 6)".
   void set_label(std::string label) { label_ = std::move(label); }
 

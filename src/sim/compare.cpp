@@ -37,9 +37,10 @@ class ComparisonRun {
   ComparisonRun(const Scene& scene, const ComparePlan& plan, CompareObserver& observer)
       : scene_(scene), plan_(plan), observer_(observer), base_(check_base()) {}
 
-  void check() const {
+  World check() const {
     static_cast<void>(lay_out());
     if (!uses_closed_forms()) static_cast<void>(reference_candidates());
+    return base_;
   }
 
   Comparison compare() {
@@ -289,9 +290,9 @@ class ComparisonRun {
 
 }  // namespace
 
-void check(const Scene& scene, const ComparePlan& plan) {
+World check(const Scene& scene, const ComparePlan& plan) {
   CompareObserver unobserved;
-  ComparisonRun(scene, plan, unobserved).check();
+  return ComparisonRun(scene, plan, unobserved).check();
 }
 
 Comparison compare(const Scene& scene, const ComparePlan& plan, CompareObserver* observer) {

@@ -27,6 +27,7 @@ std::string failure_text(StepStatus status) {
 
 Simulation::Simulation(const World& world, RunObserver& observer)
     : world_(world), observer_(observer), direction_(world.end < world.start ? -1.0 : 1.0) {
+  observer_.begin(world_);
   for (std::size_t g = 0; g < world.groups.size(); ++g)
     motions_.push_back(std::make_unique<Motion>(world, static_cast<int>(g), observer));
   result_.scene = world.scene;
@@ -37,7 +38,6 @@ Simulation::Simulation(const World& world, RunObserver& observer)
 }
 
 RunResult Simulation::run() {
-  observer_.begin(world_);
   sample_until(world_.start);
   if (world_.end != world_.start)
     for (std::size_t i = 0; i < motions_.size() && running_; ++i) advance(static_cast<int>(i));

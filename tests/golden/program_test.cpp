@@ -167,7 +167,7 @@ TEST(ExitCodes, TellWhatWasWrong) {
   const Case cases[] = {
       {{}, 2, "subcommand"},
       {{"rnu", kRifleShot}, 2, "unknown command 'rnu'"},
-      {{"view", kRifleShot}, 2, "unknown command 'view'"},
+      {{"viewed", kRifleShot}, 2, "unknown command 'viewed', see 'trajet --help'; did you mean 'view'?"},
       {{"run"}, 2, "SCENE"},
       {{"run", kRifleShot, "--jsn", "x"}, 2, "--jsn"},
       {{"run", kRifleShot, "--json", "-", "--csv", "-"}, 2, "standard output"},

@@ -36,7 +36,7 @@ LIBRARIES = {
     "udunits2.h": {"io"},
     "tiny_gltf.h": {"io"},
     "nlohmann": {"io", "viz"},
-    "fmt": {"io", "apps"},
+    "fmt": {"io", "viz", "apps"},
     "CLI": {"apps"},
 }
 

@@ -81,8 +81,9 @@ class CompareObserver {
   }
 };
 
-/// Checks a scene and a plan without running anything. Throws InputError that points at what is wrong.
-void check(const Scene& scene, const ComparePlan& plan);
+/// Checks a scene and a plan without running anything, and returns what is going to move. Throws InputError that points
+/// at what is wrong.
+World check(const Scene& scene, const ComparePlan& plan);
 
 /// Runs a scene by several methods and measures each against a reference.
 ///

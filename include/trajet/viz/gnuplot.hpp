@@ -1,0 +1,32 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace trajet {
+
+enum class FigureFormat { svg, png, pdf };
+
+/// The format that a file name ends in (`.svg`, `.png`, `.pdf`), or nothing.
+std::optional<FigureFormat> figure_format(std::string_view path);
+
+/// A size that suits the page of a report: 100 units are an inch of a PDF, a unit a pixel of an SVG and two of a PNG.
+struct FigureSize {
+  int width = 0;
+  int height = 0;
+};
+
+/// The program that draws, or FileError that says how to get it.
+void require_gnuplot();
+
+/// Draws: runs gnuplot on a script that knows nothing of formats, and returns the contents of the picture's file.
+/// Throws FileError with gnuplot's own words if it fails.
+std::string draw(const std::string& script, FigureFormat format, const FigureSize& size);
+
+namespace detail {
+/// A text as a literal of a gnuplot script; control characters become blanks.
+std::string quoted(std::string_view text);
+}  // namespace detail
+
+}  // namespace trajet

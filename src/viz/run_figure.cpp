@@ -1,0 +1,258 @@
+#include "trajet/viz/run_figure.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "plot_panel.hpp"
+#include "trajet/viz/curve.hpp"
+
+namespace trajet {
+
+namespace {
+
+using detail::Frame;
+using detail::quoted;
+using detail::Range;
+
+constexpr std::size_t kMostBodies = 3;
+constexpr std::size_t kMostStates = 4;
+constexpr std::size_t kMostImpactLines = 40;
+
+/// What is drawn of a body against time, in the course's colours.
+struct Quantity {
+  const char* label;
+  const char* color;
+  bool is_rate;  // read from the rates of the state
+  int offset;    // behind the body's place in the state
+};
+constexpr Quantity kQuantities[] = {{"position [m]", "#0050c8", false, 0},
+                                    {"velocity [m/s]", "#008a20", false, 3},
+                                    {"acceleration [m/s²]", "#d01010", true, 3}};
+/// Components differ by their dashes, which survive a copier and any eye.
+constexpr const char* kDashes[] = {"dt 1", "dt (14,6)", "dt (3,5)"};
+constexpr const char* kStateColor = "#6a3d9a";
+
+/// Builds the script panel by panel.
+class RunFigure {
+ public:
+  RunFigure(const RunResult& result, const MotionRecord& record)
+      : result_(result), record_(record), world_(record.world()) {
+    for (std::size_t g = 0; g < world_.groups.size(); ++g) curves_.push_back(make_curve(record, static_cast<int>(g)));
+    body_count_ = std::min(world_.bodies.size(), kMostBodies);
+    state_count_ = std::min(world_.states.size(), kMostStates);
+  }
+
+  Figure build() {
+    const bool has_paths = !world_.bodies.empty() && path_dimension() >= 2;
+    const std::size_t rows = std::max<std::size_t>(body_count_ > 0 ? 3 : 0, state_count_);
+    const std::size_t columns = body_count_ + (state_count_ > 0 ? 1 : 0) + (has_paths ? 1 : 0);
+    figure_.size = {static_cast<int>(columns == 1 ? 760 : 560 * columns),
+                    static_cast<int>(110 + 230 * std::max<std::size_t>(rows, 2))};
+    columns_ = columns;
+    figure_.script = fmt::format("set multiplot\nset label 1 {} at screen 0.5, screen {:.4f} center font ',21'\n",
+                                 quoted(title()), 1.0 - 24.0 / figure_.size.height);
+    add_subtitle();
+    figure_.script +=
+        "set border lw 1.2 lc '#404040'\nset grid lc '#d8d8d8' lt 1 lw 0.8\nset style line 9 lc '#909090' lw 1.2 dt "
+        "(2,4)\n";
+    for (std::size_t b = 0; b < body_count_; ++b) add_body(b, b);
+    if (state_count_ > 0) add_states(body_count_);
+    if (has_paths) add_paths(columns - 1);
+    figure_.script += "unset multiplot\n";
+    return std::move(figure_);
+  }
+
+ private:
+  std::string title() const { return result_.title.empty() ? result_.scene : result_.title; }
+
+  void add_subtitle() {
+    std::string text = "method " + result_.method;
+    if (world_.bodies.size() > body_count_)
+      text += fmt::format("; the first {} of {} bodies against time", body_count_, world_.bodies.size());
+    if (world_.states.size() > state_count_)
+      text += fmt::format("; the first {} of {} states", state_count_, world_.states.size());
+    if (!result_.impacts.empty()) text += fmt::format("; impacts: {}", result_.impacts.size());
+    figure_.script += fmt::format("set label 2 {} at screen 0.5, screen {:.4f} center tc '#505050'\n", quoted(text),
+                                  1.0 - 48.0 / figure_.size.height);
+  }
+
+  /// The frame of the panel in a column, `row` of `rows` from the top.
+  Frame frame(std::size_t column, std::size_t row, std::size_t rows) const {
+    const double width = 1.0 / static_cast<double>(columns_), pixel_x = 1.0 / figure_.size.width,
+                 pixel_y = 1.0 / figure_.size.height;
+    const double top = 1.0 - 78.0 * pixel_y, height = (top - 16.0 * pixel_y) / static_cast<double>(rows);
+    const double left = width * static_cast<double>(column);
+    const double panel_top = top - height * static_cast<double>(row);
+    return {left + 88.0 * pixel_x, left + width - 22.0 * pixel_x, panel_top - height + 52.0 * pixel_y,
+            panel_top - 22.0 * pixel_y};
+  }
+
+  /// A plot of lines against time.
+  void add_time_panel(const Frame& frame, const std::string& label, const Range& times, const Range& values,
+                      bool is_last, const std::string& lines) {
+    std::string& script = figure_.script;
+    script += detail::place(frame) + detail::axis("x", times, 6) + detail::axis("y", values.padded(), 5);
+    script += fmt::format("set ylabel {}\nset xlabel {}\n", quoted(label), quoted(is_last ? "time [s]" : ""));
+    script += "set key at graph 1, graph 1 right bottom Left reverse horizontal samplen 3\n";
+    script += "plot " + lines + "\nunset arrow\n";
+    end_panel();
+  }
+
+  /// Vertical lines at the times of a body's impacts.
+  std::string impact_lines(const std::string& body) const {
+    std::string script;
+    std::size_t count = 0;
+    for (const Impact& impact : result_.impacts)
+      if (impact.body == body && count++ < kMostImpactLines)
+        script += fmt::format("set arrow from {0}, graph 0 to {0}, graph 1 nohead ls 9 back\n", impact.time);
+    return script;
+  }
+
+  /// The title stands in the first panel's labels; the others must not print it again.
+  void end_panel() {
+    if (prints_title_) figure_.script += "unset label 1\nunset label 2\n";
+    prints_title_ = false;
+  }
+
+  static double component(const Curve& curve, std::size_t point, bool is_rate, int index) {
+    return (is_rate ? curve.rates : curve.states)[point][static_cast<std::size_t>(index)];
+  }
+
+  Range times(const Curve& curve) const {
+    Range range;
+    for (const double t : curve.times) range.include(t);
+    if (range.extent() == 0.0) return {world_.start, world_.start + 1.0};
+    return range;
+  }
+
+  void add_body(std::size_t index, std::size_t column) {
+    const World::Body& body = world_.bodies[index];
+    const Curve& curve = curves_[static_cast<std::size_t>(body.group)];
+    std::array<bool, 3> moves{};
+    for (const Quantity& quantity : kQuantities)
+      for (std::size_t p = 0; p < curve.times.size(); ++p)
+        for (int i = 0; i < 3; ++i)
+          moves[static_cast<std::size_t>(i)] |=
+              component(curve, p, quantity.is_rate, body.offset + quantity.offset + i) != 0.0;
+    if (moves == std::array<bool, 3>{}) moves.fill(true);
+
+    for (std::size_t q = 0; q < 3; ++q) {
+      const Quantity& quantity = kQuantities[q];
+      std::vector<std::vector<double>> rows;
+      Range values;
+      for (std::size_t p = 0; p < curve.times.size(); ++p) {
+        rows.push_back({curve.times[p]});
+        for (int i = 0; i < 3; ++i) {
+          const double value = component(curve, p, quantity.is_rate, body.offset + quantity.offset + i);
+          rows.back().push_back(value);
+          if (moves[static_cast<std::size_t>(i)]) values.include(value);
+        }
+      }
+      const std::string name = fmt::format("body{}_{}", index, q);
+      figure_.script += detail::data_block(name, rows);
+      std::string lines;
+      for (std::size_t i = 0; i < 3; ++i)
+        if (moves[i])
+          lines += fmt::format("{}${} using 1:{} with lines lw 2.4 lc '{}' {} title '{}'", lines.empty() ? "" : ", ",
+                               name, i + 2, quantity.color, kDashes[i], "xyz"[i]);
+      figure_.script += impact_lines(body.name);
+      const std::string owner = world_.bodies.size() > 1 ? body.name + ": " : "";
+      add_time_panel(frame(column, q, 3), owner + quantity.label, times(curve), values, q == 2, lines);
+    }
+  }
+
+  void add_states(std::size_t column) {
+    for (std::size_t s = 0; s < state_count_; ++s) {
+      const World::ExtraState& state = world_.states[s];
+      const Curve& curve = curves_[static_cast<std::size_t>(state.group)];
+      std::vector<std::vector<double>> rows;
+      Range values;
+      for (std::size_t p = 0; p < curve.times.size(); ++p) {
+        rows.push_back({curve.times[p], component(curve, p, false, state.offset)});
+        values.include(rows.back()[1]);
+      }
+      const std::string name = fmt::format("state{}", s);
+      figure_.script += detail::data_block(name, rows);
+      add_time_panel(frame(column, s, state_count_), state.name, times(curve), values, s + 1 == state_count_,
+                     fmt::format("${} using 1:2 with lines lw 2.4 lc '{}' notitle", name, kStateColor));
+    }
+  }
+
+  /// How many of the coordinates change, over all bodies; `kept_` are these.
+  int path_dimension() {
+    for (int i = 0; i < 3; ++i) {
+      for (const World::Body& body : world_.bodies) {
+        Range range;
+        const Curve& curve = curves_[static_cast<std::size_t>(body.group)];
+        for (std::size_t p = 0; p < curve.times.size(); ++p) range.include(component(curve, p, false, body.offset + i));
+        extents_[static_cast<std::size_t>(i)].include(range.low);
+        extents_[static_cast<std::size_t>(i)].include(range.high);
+      }
+      if (extents_[static_cast<std::size_t>(i)].extent() > 0.0) kept_.push_back(i);
+    }
+    return static_cast<int>(kept_.size());
+  }
+
+  void add_paths(std::size_t column) {
+    constexpr const char* kPathColors[] = {"#0050c8", "#e07b00", "#007a6c", "#a03a90", "#6b6b6b", "#8c5a2b"};
+    std::string& script = figure_.script;
+    std::string lines;
+    for (std::size_t b = 0; b < world_.bodies.size(); ++b) {
+      const World::Body& body = world_.bodies[b];
+      const Curve& curve = curves_[static_cast<std::size_t>(body.group)];
+      std::vector<std::vector<double>> rows;
+      for (std::size_t p = 0; p < curve.times.size(); ++p) {
+        rows.emplace_back();
+        for (const int i : kept_) rows.back().push_back(component(curve, p, false, body.offset + i));
+      }
+      script += detail::data_block(fmt::format("path{}", b), rows);
+      lines += fmt::format("{}$path{} with lines lw 2.4 lc '{}' title {}", lines.empty() ? "" : ", ", b,
+                           kPathColors[b % std::size(kPathColors)], b < 12 ? quoted(body.name) : "''");
+      if (kept_.size() == 3)
+        lines +=
+            fmt::format(", $path{} using 1:2:({}) with lines lw 1.2 lc '#c0c0c0' notitle", b, extents_[2].padded().low);
+    }
+    if (!result_.impacts.empty()) {
+      std::vector<std::vector<double>> rows;
+      for (const Impact& impact : result_.impacts) {
+        rows.emplace_back();
+        for (const int i : kept_) rows.back().push_back(impact.position[i]);
+      }
+      script += detail::data_block("impacts", rows);
+      lines += ", $impacts with points pt 6 ps 1.2 lw 2 lc '#202020' title 'impact'";
+    }
+    const bool is_3d = kept_.size() == 3;
+    const Frame area = frame(column, 0, 1);
+    script += is_3d ? detail::place_3d(area) : detail::place(area);
+    constexpr const char* kAxes[] = {"x", "y", "z"};
+    for (std::size_t k = 0; k < kept_.size(); ++k) {
+      const int i = kept_[k];
+      script += detail::axis(kAxes[k], extents_[static_cast<std::size_t>(i)].padded(), is_3d ? 4 : 5);
+      script += fmt::format("set {}label '{} [m]'{}\n", kAxes[k], "xyz"[i], k == 2 ? " rotate by 90" : "");
+    }
+    script += "set key at screen " + fmt::format("{:.4f}, {:.4f}", area.right, area.top + 0.02) +
+              " right bottom Left reverse horizontal\n";
+    script += (is_3d ? "splot " : "plot ") + lines + "\n";
+    end_panel();
+  }
+
+  const RunResult& result_;
+  const MotionRecord& record_;
+  const World& world_;
+  std::vector<Curve> curves_;
+  std::size_t body_count_ = 0;
+  std::size_t state_count_ = 0;
+  std::size_t columns_ = 1;
+  bool prints_title_ = true;
+  std::array<Range, 3> extents_;
+  std::vector<int> kept_;
+  Figure figure_;
+};
+
+}  // namespace
+
+Figure run_figure(const RunResult& result, const MotionRecord& record) { return RunFigure(result, record).build(); }
+
+}  // namespace trajet
