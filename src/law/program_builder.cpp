@@ -51,10 +51,8 @@ class Compiler {
   Value bind(const SyntaxNode&, const Vector3& v) {
     return {true, {graph_.constant(v.x()), graph_.constant(v.y()), graph_.constant(v.z())}};
   }
-  Value bind(const SyntaxNode&, const Symbols::Scalar& s) { return scalar(graph_.input(s.input)); }
-  Value bind(const SyntaxNode&, const Symbols::Vector& v) {
-    return {true, {graph_.input(v.inputs[0]), graph_.input(v.inputs[1]), graph_.input(v.inputs[2])}};
-  }
+  Value bind(const SyntaxNode&, const Symbols::Scalar& s) { return scalar(s.node); }
+  Value bind(const SyntaxNode&, const Symbols::Vector& v) { return {true, v.nodes}; }
   Value bind(const SyntaxNode& node, const Symbols::Forbidden& f) { throw InputError(node.where, f.reason); }
 
   Value vector(const SyntaxNode& node) {
@@ -316,6 +314,27 @@ ProgramBuilder::Value ProgramBuilder::divide(const Value& numerator, const Value
   Value result = numerator;
   for (int& node : result.nodes) node = graph_->divide(node, denominator.nodes[0]);
   return result;
+}
+
+int ProgramBuilder::constant_node(double value) { return graph_->constant(value); }
+
+int ProgramBuilder::combine(Opcode opcode, int a, int b) {
+  switch (opcode) {
+    case Opcode::add:
+      return graph_->add(a, b);
+    case Opcode::subtract:
+      return graph_->subtract(a, b);
+    case Opcode::multiply:
+      return graph_->is_constant(a, 0.0) ? a : graph_->is_constant(b, 0.0) ? b : graph_->multiply(a, b);
+    case Opcode::divide:
+      return graph_->divide(a, b);
+    case Opcode::negate:
+      return graph_->negate(a);
+    case Opcode::sqrt:
+      return graph_->sqrt(a);
+    default:
+      return graph_->apply(opcode, a, b);
+  }
 }
 
 void ProgramBuilder::add_output(const Value& value) {

@@ -30,6 +30,11 @@ class WrappedStepper final : public AnyStepper {
   double time() const override { return stepper_.time(); }
   const State& state() const override { return stepper_.state(); }
   const StepStatistics& statistics() const override { return stepper_.statistics(); }
+  bool amend(const State& q) override {
+    constexpr bool kCanAmend = requires { stepper_.amend(q); };
+    if constexpr (kCanAmend) stepper_.amend(q);
+    return kCanAmend;
+  }
 
  private:
   S stepper_;

@@ -14,11 +14,12 @@ namespace trajet {
 /// What the names of a formula mean where it is used. An inner scope sees the names of the outer one and may hide them.
 class Symbols {
  public:
+  /// Nodes of the ProgramBuilder that compiles the formula; its inputs are the first ones.
   struct Scalar {
-    int input;
+    int node;
   };
   struct Vector {
-    std::array<int, 3> inputs;
+    std::array<int, 3> nodes;
   };
   /// A name that has a meaning elsewhere: using it is an error that gives the reason.
   struct Forbidden {
@@ -36,6 +37,9 @@ class Symbols {
   /// The name stands for an input of the program: 0 is t.
   void set_input(const std::string& name, int input) { set(name, Scalar{input}); }
   void set_inputs(const std::string& name, const std::array<int, 3>& inputs) { set(name, Vector{inputs}); }
+  /// The name stands for what the ProgramBuilder has computed already.
+  void set_node(const std::string& name, int node) { set(name, Scalar{node}); }
+  void set_nodes(const std::string& name, const std::array<int, 3>& nodes) { set(name, Vector{nodes}); }
   /// `reason` is a whole message: "t is not allowed in a parameter".
   void forbid(const std::string& name, const std::string& reason) { set(name, Forbidden{reason}); }
 

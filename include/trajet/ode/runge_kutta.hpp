@@ -32,6 +32,9 @@ class RungeKuttaBase {
   const State& state() const { return step_.end(); }
   const StepStatistics& statistics() const { return statistics_; }
 
+  /// Replaces the state; the size of the next step stays.
+  void amend(const State& q) { begin(time(), q); }
+
   /// The last step as polynomials, of the degree of the method's dense output. `error_bound` is the difference to the
   /// companion method plus rounding: for `dopri5` and `rk4` it over-estimates the error of the step, for `euler` it is
   /// its leading term, for `midpoint` a term of the same power of the step.

@@ -39,6 +39,7 @@ struct StepOptions {
 /// - `advance(t_limit)` makes one accepted step towards `t_limit`, in either direction of time, never beyond it, and lands
 ///   on it exactly: `time() == t_limit`.
 /// - `fill_segment(segment)` writes the last step as a Segment. It costs only where it is called.
+/// - `amend(q)`, which a method may lack: see AnyStepper.
 template <class S>
 concept Stepper =
     requires(S& stepper, const S& fixed, double t, const typename S::State& q, Segment<S::kDimension>& segment) {
@@ -63,6 +64,10 @@ class AnyStepper {
   virtual double time() const = 0;
   virtual const State& state() const = 0;
   virtual const StepStatistics& statistics() const = 0;
+  /// Replaces the state at the current time by one that differs little and means the same, such as a quaternion of unit
+  /// length again: the steps go on as they would have. False, and nothing is done, where the method would lose its memory
+  /// of earlier steps. The last step's Segment is gone.
+  virtual bool amend(const State&) { return false; }
 };
 
 }  // namespace trajet

@@ -101,6 +101,9 @@ class TaylorStepper {
     }
   }
 
+  /// Replaces the state.
+  void amend(const State& q) { q_ = q; }
+
   double time() const { return t_; }
   const State& state() const { return q_; }
   const StepStatistics& statistics() const { return statistics_; }
