@@ -62,6 +62,14 @@ struct OrientationLayout {
     return R;
   }
 
+  /// The rotation: as `matrix`, but not stretched where the numbers are a quaternion.
+  template <class T>
+  Matrix3T<T> rotation(const T* part) const {
+    if (way == OrientationWay::matrix || way == OrientationWay::rotation_vector) return matrix(part);
+    const QuaternionT<T> q = quaternion(part);
+    return matrix(part) * (T(1.0) / dot(q, q));
+  }
+
   /// The rates of the numbers under an angular velocity in the frame of the layout.  // rates: (size)
   template <class T>
   void rate(const T* part, const Vector3T<T>& w, T* rates) const {
