@@ -21,6 +21,8 @@ void add_scene_options(CLI::App& command, RunArguments& arguments) {
       ->type_name("NAME=VALUE")
       ->allow_extra_args(false);
   command.add_option("--method", overrides.method, "integration method, see 'trajet methods'")->type_name("NAME");
+  command.add_option("--orientation", overrides.orientation, "way of carrying orientations, see 'trajet methods'")
+      ->type_name("NAME");
   command.add_option("--step", overrides.step, "step of a fixed-step method, \"10 ms\"")->type_name("DT");
   command.add_option("--rtol", overrides.rtol, "relative tolerance")->type_name("X");
   command.add_option("--atol", overrides.atol, "absolute tolerance")->type_name("X");

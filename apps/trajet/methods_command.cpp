@@ -3,6 +3,7 @@
 #include "commands.hpp"
 #include "trajet/io/output_file.hpp"
 #include "trajet/ode/registry.hpp"
+#include "trajet/rigid/orientation.hpp"
 
 namespace trajet {
 
@@ -15,6 +16,12 @@ int methods_command() {
     text += fmt::format(kRow, method.name, fmt::format("{}", fmt::join(method.aliases, ", ")), order(method.order),
                         order(method.dense_order), control, method.known_as);
     text += fmt::format("{:<10} {}\n", "", method.summary);
+  }
+  constexpr const char* kOrientationRow = "{:<22} {:<18} {:<10} {}\n";
+  text += "\n" + fmt::format(kOrientationRow, "orientation", "aliases", "numbers", "known as");
+  for (const OrientationInfo& info : orientation_ways()) {
+    text += fmt::format(kOrientationRow, info.name, fmt::format("{}", fmt::join(info.aliases, ", ")), info.size, info.known_as);
+    text += fmt::format("{:<22} {}\n", "", info.summary);
   }
   OutputFile out("-");
   out.write(text);

@@ -10,8 +10,6 @@ namespace trajet {
 namespace {
 
 constexpr std::string_view kHeader = "t,body,x,y,z,vx,vy,vz,ax,ay,az,qw,qx,qy,qz,wx,wy,wz";
-/// Points and spheres do not turn: q_WB = (1, 0, 0, 0), w_WB = 0.
-constexpr std::string_view kNoRotation = ",1,0,0,0,0,0,0";
 constexpr std::string_view kNoBody = ",,,,,,,,,,,,,,,,,";
 
 void append(std::string& text, double value) { fmt::format_to(std::back_inserter(text), FMT_COMPILE("{}"), value); }
@@ -47,7 +45,11 @@ void CsvWriter::sample(const Sample& sample) {
     append(rows_, body.position);
     append(rows_, body.velocity);
     append(rows_, body.acceleration);
-    rows_ += kNoRotation;
+    const Quaternion& q_WB = body.orientation;
+    rows_ += ',';
+    append(rows_, q_WB.w());
+    append(rows_, Vector3(q_WB.vec()));
+    append(rows_, body.angular_velocity);
     append_states();
   }
   if (sample.bodies.empty()) {

@@ -23,8 +23,6 @@ Json object(const std::vector<NamedValue>& values) {
 }
 
 Json object(const Impact& impact) {
-  // The shapes of this version, points and spheres without friction, do not turn.
-  const Vector3 at_rest = Vector3::Zero();
   return {{"time", impact.time},
           {"body", impact.body},
           {"with", impact.with},
@@ -34,8 +32,8 @@ Json object(const Impact& impact) {
           {"position", array(impact.position)},
           {"velocity_before", array(impact.velocity_before)},
           {"velocity_after", array(impact.velocity_after)},
-          {"angular_velocity_before", array(at_rest)},
-          {"angular_velocity_after", array(at_rest)},
+          {"angular_velocity_before", array(impact.angular_velocity_before)},
+          {"angular_velocity_after", array(impact.angular_velocity_after)},
           {"impulse", array(impact.impulse)},
           {"time_error_bound", impact.time_error_bound}};
 }
@@ -45,15 +43,25 @@ Json object(const EventRecord& event) {
 }
 
 Json object(const BodyState& state) {
-  const Quaternion q_WB = Quaternion::Identity();
-  return {{"body", state.body},
-          {"position", array(state.position)},
-          {"velocity", array(state.velocity)},
-          {"acceleration", array(state.acceleration)},
-          {"orientation", array(q_WB)},
-          {"rotation_matrix", array(q_WB.toRotationMatrix())},
-          {"angular_velocity", array(Vector3(Vector3::Zero()))},
-          {"points", Json::object()}};
+  Json points = Json::object();
+  for (const PointState& point : state.points)
+    points[point.point] = {{"position", array(point.position)},
+                           {"velocity", array(point.velocity)},
+                           {"acceleration", array(point.acceleration)}};
+  const Matrix3& R = state.rotation_matrix;
+  Json json = {{"body", state.body},
+               {"position", array(state.position)},
+               {"velocity", array(state.velocity)},
+               {"acceleration", array(state.acceleration)},
+               {"orientation", array(state.orientation)},
+               {"rotation_matrix", array(R)},
+               {"angular_velocity", array(state.angular_velocity)},
+               {"points", points}};
+  if (state.turns) {
+    json["determinant"] = R.determinant();
+    json["orthogonality_error"] = (R.transpose() * R - Matrix3::Identity()).cwiseAbs().maxCoeff();
+  }
+  return json;
 }
 
 template <class T>

@@ -112,7 +112,6 @@ class SceneReader {
     constexpr std::array<std::string_view, 9> kKeys{"name",  "rtol",      "atol",        "step",  "steps",
                                                     "order", "max_steps", "orientation", "locate"};
     constexpr std::array<std::string_view, 3> kLocators{"polynomial", "interpolation", "subdivision"};
-    constexpr std::array<std::string_view, 1> kOrientations{"quaternion"};
     table.check_keys(kKeys);
     MethodOptions method;
     method.where = table.where("name");
@@ -127,7 +126,12 @@ class SceneReader {
     if (order > kMaxOrder) table.fail("order", "an order of at most " + std::to_string(kMaxOrder) + " expected");
     method.order = static_cast<int>(order);
     method.max_steps = table.whole_number("max_steps", 1, method.max_steps);
-    table.choice("orientation", kOrientations, 0);
+    std::vector<std::string_view> orientations;
+    for (const OrientationInfo& info : orientation_ways()) orientations.push_back(info.name);
+    method.orientation_where = table.where("orientation");
+    const OrientationInfo* alias = table.has("orientation") ? find_orientation_way(table.text("orientation")) : nullptr;
+    method.orientation =
+        alias != nullptr ? alias->way : orientation_ways()[table.choice("orientation", orientations, 0)].way;
     method.locate = std::array{Locator::polynomial, Locator::interpolation,
                                Locator::subdivision}[table.choice("locate", kLocators, 0)];
     return method;

@@ -18,10 +18,10 @@ using Names = std::map<std::string, NameUse, std::less<>>;
 
 /// Names that mean something in a body's own laws.
 constexpr std::string_view kOwnNames[] = {"r",   "v",   "w",   "x",   "y",   "z",   "vx",  "vy",  "vz",
-                                          "wx",  "wy",  "wz",  "q",   "qw",  "qx",  "qy",  "qz",  "R",
+                                          "wx",  "wy",  "wz",  "w_body", "q",   "qw",  "qx",  "qy",  "qz",  "R",
                                           "Rxx", "Rxy", "Rxz", "Ryx", "Ryy", "Ryz", "Rzx", "Rzy", "Rzz"};
 /// Parts of a body that `set` may change; the first two are those that `exact` gives.
-constexpr std::string_view kBodyParts[] = {"r", "v", "x", "y", "z", "vx", "vy", "vz"};
+constexpr std::string_view kBodyParts[] = {"r", "v", "x", "y", "z", "vx", "vy", "vz", "w"};
 
 bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; }
 bool is_name_character(char c) { return is_letter(c) || (c >= '0' && c <= '9') || c == '-'; }

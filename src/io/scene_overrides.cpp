@@ -5,6 +5,7 @@
 
 #include "formula_text.hpp"
 #include "trajet/law/did_you_mean.hpp"
+#include "trajet/rigid/orientation.hpp"
 
 namespace trajet {
 
@@ -48,6 +49,17 @@ void apply(const SceneOverrides& overrides, Scene& scene) {
   replace(scene.method.rtol, overrides.rtol, "--rtol", kDimensionless);
   replace(scene.method.atol, overrides.atol, "--atol", kDimensionless);
   if (overrides.step) scene.method.steps.clear();
+  if (overrides.orientation) {
+    const OrientationInfo* info = find_orientation_way(*overrides.orientation);
+    if (info == nullptr) {
+      std::vector<std::string_view> known;
+      for (const OrientationInfo& each : orientation_ways()) known.push_back(each.name);
+      throw InputError({"--orientation"}, "unknown way of carrying orientations '" + *overrides.orientation +
+                                              "', see 'trajet methods'" + did_you_mean(*overrides.orientation, known));
+    }
+    scene.method.orientation = info->way;
+    scene.method.orientation_where = {"--orientation"};
+  }
   if (overrides.method) {
     scene.method.name = *overrides.method;
     scene.method.where = {"--method"};

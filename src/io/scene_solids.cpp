@@ -4,15 +4,6 @@
 
 namespace trajet::detail {
 
-namespace {
-
-using Keys = std::vector<std::string_view>;
-
-Keys operator+(Keys a, const Keys& b) {
-  a.insert(a.end(), b.begin(), b.end());
-  return a;
-}
-
 OrientationDefinition read_orientation(const TableReader& table) {
   OrientationDefinition orientation;
   orientation.where = table.where();
@@ -32,6 +23,15 @@ OrientationDefinition read_orientation(const TableReader& table) {
     orientation.matrix = table.vectors("matrix", 3, kDimensionless);
   }
   return orientation;
+}
+
+namespace {
+
+using Keys = std::vector<std::string_view>;
+
+Keys operator+(Keys a, const Keys& b) {
+  a.insert(a.end(), b.begin(), b.end());
+  return a;
 }
 
 PlaneDefinition read_plane(const TableReader& table) {
@@ -85,46 +85,6 @@ const std::array<ObstacleKind, 6>& obstacle_kinds() {
 }
 
 }  // namespace
-
-BodyDefinition read_body(const TableReader& table) {
-  const Keys common = {"name", "shape", "position", "velocity", "acceleration", "force", "mass", "position_rate"};
-  const Keys planned = {"orientation",
-                        "angular_velocity",
-                        "angular_velocity_body",
-                        "angular_acceleration",
-                        "torque",
-                        "angular_acceleration_body",
-                        "torque_body",
-                        "inertia",
-                        "density",
-                        "points",
-                        "restitution",
-                        "friction",
-                        "size",
-                        "file",
-                        "scale"};
-  constexpr std::array<std::string_view, 2> kShapes{"point", "sphere"};
-  constexpr std::array<std::string_view, 4> kPlannedShapes{"box", "soccer-ball", "hull", "mesh"};
-  const bool is_sphere = table.choice("shape", kShapes, 0, kPlannedShapes) == 1;
-  if (!is_sphere && table.has("radius"))
-    table.fail("radius", "a point has no radius; for one, write shape = \"sphere\"");
-  table.check_keys(common + (is_sphere ? Keys{"radius"} : Keys{}), planned);
-
-  BodyDefinition body;
-  body.where = table.where("name");
-  body.name = table.text("name");
-  if (is_sphere) body.shape = BallShape{table.scalar("radius", kLength)};
-  if (table.has("position")) body.position = table.vector("position", kLength);
-  if (table.has("velocity")) body.velocity = table.vector("velocity", kSpeed);
-  body.acceleration = table.optional_vector("acceleration", kAcceleration);
-  body.force = table.optional_vector("force", kForce);
-  body.mass = table.optional_scalar("mass", kMass);
-  body.position_rate = table.optional_vector("position_rate", kSpeed);
-  if (body.acceleration && body.force)
-    table.fail("force", "a body moves by its acceleration or by a force with a mass, not by both");
-  if (body.force && !body.mass) table.fail("force", "a force needs the key 'mass'");
-  return body;
-}
 
 ObstacleDefinition read_obstacle(const TableReader& table) {
   std::vector<std::string_view> shapes;

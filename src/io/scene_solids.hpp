@@ -6,6 +6,7 @@
 namespace trajet::detail {
 
 /// Reads a table `[[body]]`.
+OrientationDefinition read_orientation(const TableReader& table);
 BodyDefinition read_body(const TableReader& table);
 
 /// Reads a table `[[obstacle]]`.

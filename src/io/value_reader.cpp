@@ -156,6 +156,15 @@ std::vector<Expression> TableReader::scalar_list(std::string_view key, Dimension
   return values;
 }
 
+std::vector<Expression> TableReader::vector_list(std::string_view key, Dimension expected) const {
+  const toml::node& node = required(key);
+  const toml::array* array = node.as_array();
+  if (array == nullptr || array->empty()) fail_type(node, quote(key) + ": a non-empty array of vectors expected");
+  std::vector<Expression> values;
+  for (const toml::node& element : *array) values.push_back(vector_of(element, expected));
+  return values;
+}
+
 TableReader TableReader::subtable(std::string_view key) const {
   const toml::node& node = required(key);
   if (!node.is_table()) fail_type(node, quote(key) + ": a table expected");

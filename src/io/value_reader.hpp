@@ -47,8 +47,9 @@ class TableReader {
   Expression formula(std::string_view key) const;
   std::vector<Expression> scalars(std::string_view key, std::size_t count, Dimension expected) const;
   std::vector<Expression> vectors(std::string_view key, std::size_t count, Dimension expected) const;
-  /// Any number of scalars, at least one.
+  /// Any number, at least one.
   std::vector<Expression> scalar_list(std::string_view key, Dimension expected) const;
+  std::vector<Expression> vector_list(std::string_view key, Dimension expected) const;
   TableReader subtable(std::string_view key) const;
 
   std::optional<Expression> optional_scalar(std::string_view key, Dimension expected) const;

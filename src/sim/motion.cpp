@@ -8,7 +8,7 @@
 namespace trajet {
 
 Motion::Motion(const World& world, int group, RunObserver& observer)
-    : world_(world), group_(group), observer_(observer) {
+    : world_(world), group_(group), observer_(observer), rotations_(world, group) {
   for (const int body : this->group().bodies)
     for (std::size_t obstacle = 0; obstacle < world.obstacles.size(); ++obstacle)
       pairs_.push_back({body, static_cast<int>(obstacle)});
@@ -33,7 +33,10 @@ void Motion::use_law() {
   }
   stepper_.reset();
   system_ = std::make_unique<ProgramSystem>(law);
-  stepper_ = world_.method->make(*system_, world_.step_options);
+  StepOptions options = world_.step_options;
+  options.rtol *= rotations_.tolerance_factor();
+  options.atol *= rotations_.tolerance_factor();
+  stepper_ = world_.method->make(*system_, options);
   release_watches_.clear();
   for (std::size_t i = 0; i < resting_.size(); ++i) {
     const Pair& resting_pair = pair(resting_[i].pair);
@@ -46,6 +49,7 @@ void Motion::use_law() {
 void Motion::begin(double t, const Eigen::VectorXd& q) {
   stepper_->start(t, q);
   end_state_ = q;
+  rotations_.begin(t, q);
   handed_on_ = t;
   begins_anew_ = true;
   segment_.resize(static_cast<int>(q.size()), 0);
@@ -79,12 +83,28 @@ StepStatus Motion::advance() {
   for (Pair& pair : pairs_) know_until(pair, segment_.t1());
   stepper_->fill_segment(segment_);
   end_state_ = stepper_->state();
+  if (!rotations_.empty()) settle_rotations();
   const double from = segment_.t0();
   for (Pair& pair : pairs_) pair.contact = first_contact_until(pair, segment_.t1());
   for (Watch& watch : watches_) watch.watch.search(segment_, from);
   for (ReleaseWatch& release : release_watches_) release.watch.search(segment_, from);
   find_next();
   return status;
+}
+
+void Motion::settle_rotations() {
+  Eigen::VectorXd settled = end_state_;
+  rotations_.settle(segment_.t1(), settled);
+  // a quaternion that is unit but for rounding may stay: new ones cost the method the rate that it knows at the end
+  constexpr double kRounding = 1e-15;
+  if ((settled - end_state_).cwiseAbs().maxCoeff() < kRounding) return;
+  if (!stepper_->amend(settled)) {
+    // Reading the state settles it anyway: a method that would have to start anew does so only when it has drifted far.
+    constexpr double kFar = 0.5;
+    if (rotations_.unsettled(end_state_) < kFar) return;
+    stepper_->start(segment_.t1(), settled);
+  }
+  end_state_ = settled;
 }
 
 ContactResult Motion::first_contact_until(const Pair& pair, double to) const {
@@ -164,7 +184,11 @@ int Motion::end_rest(int resting) {
   return index;
 }
 
-Eigen::VectorXd Motion::state(double t) const { return t == segment_.t1() ? end_state_ : segment_.state(t); }
+Eigen::VectorXd Motion::state(double t) const {
+  Eigen::VectorXd q = t == segment_.t1() ? end_state_ : segment_.state(t);
+  rotations_.settle(t, q);
+  return q;
+}
 
 Eigen::VectorXd Motion::rate(double t, const Eigen::VectorXd& q) const {
   Eigen::VectorXd dq(q.size());

@@ -5,6 +5,7 @@
 
 #include "event_watch.hpp"
 #include "resting_contact.hpp"
+#include "rotations.hpp"
 #include "trajet/collide/detect/table.hpp"
 #include "trajet/ode/registry.hpp"
 #include "trajet/sim/program_system.hpp"
@@ -72,7 +73,7 @@ class Motion {
   const std::vector<Pair>& pairs() const { return pairs_; }
   const std::vector<RestingContact>& resting() const { return resting_; }
   const Segment<>& segment() const { return segment_; }
-  /// The state at a time on the current Segment.
+  /// The state at a time on the current Segment, its orientations settled.
   Eigen::VectorXd state(double t) const;
   /// The law at a state: dq/dt, contact forces included.
   Eigen::VectorXd rate(double t, const Eigen::VectorXd& q) const;
@@ -97,6 +98,8 @@ class Motion {
   /// Begins anew under the group's law, with the bodies held that rest.
   void use_law();
   void begin(double t, const Eigen::VectorXd& q);
+  /// Goes on from settled orientations where a step has ended.
+  void settle_rotations();
   /// The pair's first contact on the current Segment between `known_at` and `to`.
   ContactResult first_contact_until(const Pair& pair, double to) const;
   /// Moves what is known of a pair on to time t on the current Segment; all contacts before it are handled.
@@ -110,6 +113,7 @@ class Motion {
   bool begins_anew_ = true;  // nothing was handed on since the last start
   std::unique_ptr<ProgramSystem> system_;
   std::unique_ptr<AnyStepper> stepper_;
+  Rotations rotations_;
   StepStatistics finished_steppers_;
   Segment<> segment_;
   Eigen::VectorXd end_state_;

@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "trajet/law/program_builder.hpp"
+#include "trajet/math/quaternion.hpp"
 
 namespace trajet {
 namespace {
@@ -38,7 +39,7 @@ class ShapeMaker {
   }
   Shape operator()(const BoxDefinition& box) const {
     return make_box(vector(box.center, "center"), vector(box.size, "size"),
-                    numbers_.rotation(box.orientation, "orientation" + of_));
+                    rotation_matrix(numbers_.orientation(box.orientation, "orientation" + of_)));
   }
 
  private:
@@ -82,24 +83,29 @@ Vector3 SceneNumbers::vector(const Expression& value, const std::string& what) c
   return numbers;
 }
 
-Matrix3 SceneNumbers::rotation(const OrientationDefinition& orientation, const std::string& what) const {
+Quaternion SceneNumbers::orientation(const OrientationDefinition& orientation, const std::string& what) const {
   if (orientation.axis && orientation.angle_rad) {
     const Vector3 axis = vector(*orientation.axis, what);
     if (axis.norm() == 0.0) throw InputError(orientation.axis->where(), "axis of " + what + " has no direction");
-    return Eigen::AngleAxisd(scalar(*orientation.angle_rad, what), axis.normalized()).toRotationMatrix();
+    return from_axis_angle<double>(axis, scalar(*orientation.angle_rad, what)).normalized();
   }
   if (orientation.quaternion.size() == 4) {
     Eigen::Vector4d q;
     for (int i = 0; i < 4; ++i) q[i] = scalar(orientation.quaternion[static_cast<std::size_t>(i)], what);
     if (q.norm() == 0.0) throw InputError(orientation.quaternion[0].where(), "quaternion of " + what + " is zero");
-    return Quaternion(q[0], q[1], q[2], q[3]).normalized().toRotationMatrix();
+    q.stableNormalize();
+    return {q[0], q[1], q[2], q[3]};
   }
   if (orientation.matrix.size() == 3) {
-    Matrix3 matrix;
-    for (int i = 0; i < 3; ++i) matrix.row(i) = vector(orientation.matrix[static_cast<std::size_t>(i)], what).transpose();
-    return matrix;
+    Matrix3 R;
+    for (int i = 0; i < 3; ++i) R.row(i) = vector(orientation.matrix[static_cast<std::size_t>(i)], what).transpose();
+    constexpr double kOrthogonality = 1e-9;  // what a matrix printed to ten digits keeps
+    if (!(R.transpose() * R).isIdentity(kOrthogonality) || !(R.determinant() > 0.0))
+      throw InputError(orientation.matrix[0].where(), what + " is no rotation matrix: its rows must be orthogonal unit "
+                                                             "vectors, right-handed");
+    return from_rotation_matrix(nearest_rotation(R));
   }
-  return Matrix3::Identity();
+  return Quaternion::Identity();
 }
 
 Shape SceneNumbers::shape(const ObstacleDefinition& obstacle) const {

@@ -20,7 +20,8 @@ class SceneNumbers {
   double within(const Expression& value, double lowest, double highest, const std::string& what) const;
   /// Three finite numbers.
   Vector3 vector(const Expression& value, const std::string& what) const;
-  Matrix3 rotation(const OrientationDefinition& orientation, const std::string& what) const;
+  /// A unit quaternion, w >= 0 where it was a matrix. Throws InputError if a matrix is no rotation.
+  Quaternion orientation(const OrientationDefinition& orientation, const std::string& what) const;
   Shape shape(const ObstacleDefinition& obstacle) const;
 
  private:

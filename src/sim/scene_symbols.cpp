@@ -52,8 +52,11 @@ class ParameterEvaluation {
 void forbid_time_dependent_names(const Scene& scene, Symbols& symbols) {
   const std::string where = " changes with time: only laws, rates and events may use it";
   symbols.forbid("t", "t" + where);
-  for (const BodyDefinition& body : scene.bodies)
-    for (const BodyPart& part : kBodyParts) symbols.forbid(body.name + "." + part.name, body.name + "." + part.name + where);
+  for (const BodyDefinition& body : scene.bodies) {
+    const auto forbid = [&](const std::string& name) { symbols.forbid(name, name + where); };
+    for (const BodyPart& part : kBodyParts) forbid(body.name + "." + part.name);
+    for (const char* name : kRotationNames) forbid(body.name + "." + name);
+  }
   for (const StateDefinition& state : scene.states) symbols.forbid(state.name, state.name + where);
 }
 
@@ -90,14 +93,6 @@ void add_body_symbols(Symbols& symbols, const std::string& prefix, int input) {
     else
       symbols.set_input(prefix + part.name, first);
   }
-  // points and spheres do not turn: q_WB is the identity
-  symbols.set_constant(prefix + "w", Vector3(0, 0, 0));
-  for (int i = 0; i < 3; ++i) {
-    symbols.set_constant(prefix + "w" + "xyz"[i], 0.0);
-    symbols.set_constant(prefix + "q" + "xyz"[i], 0.0);
-    for (int j = 0; j < 3; ++j) symbols.set_constant(prefix + "R" + "xyz"[i] + "xyz"[j], i == j ? 1.0 : 0.0);
-  }
-  symbols.set_constant(prefix + "qw", 1.0);
 }
 
 }  // namespace trajet

@@ -18,6 +18,10 @@ struct BodyPart {
 inline constexpr BodyPart kBodyParts[] = {{"r", 0, 3}, {"v", 3, 3},  {"x", 0, 1},  {"y", 1, 1},
                                           {"z", 2, 1}, {"vx", 3, 1}, {"vy", 4, 1}, {"vz", 5, 1}};
 
+/// Names of what is computed from the rotational part: angular velocity in the world and in the body, R_WB, q_WB.
+inline constexpr const char* kRotationNames[] = {"w",   "wx",  "wy",  "wz",  "w_body", "qw",  "qx",  "qy",  "qz",
+                                                 "Rxx", "Rxy", "Rxz", "Ryx", "Ryy",    "Ryz", "Rzx", "Rzy", "Rzz"};
+
 /// The body part of that name, or nullptr.
 const BodyPart* find_body_part(std::string_view name);
 
@@ -29,7 +33,7 @@ struct ParameterSet {
 };
 ParameterSet evaluate_parameters(const Scene& scene);
 
-/// Adds the meanings of a body's names: `prefix` is "" for its own laws or "NAME." for those of others. `input` is the index
+/// Adds the meanings of the names of a body's position and velocity: `prefix` is "" for its own laws or "NAME." for those of others. `input` is the index
 /// of its first component among the inputs of a program.
 void add_body_symbols(Symbols& symbols, const std::string& prefix, int input);
 

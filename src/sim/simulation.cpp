@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "body_state.hpp"
 #include "trajet/law/evaluate.hpp"
 
 namespace trajet {
@@ -158,6 +159,7 @@ Impact Simulation::describe(int index, const Incident& incident, const Eigen::Ve
   impact.normal = pair.contact.normal;
   impact.position = q.segment<3>(body.offset);
   impact.velocity_before = impact.velocity_after = q.segment<3>(body.offset + 3);
+  impact.angular_velocity_before = impact.angular_velocity_after = angular_velocity(body, q);
   impact.impulse = Vector3::Zero();
   impact.time_error_bound = pair.contact.time_error_bound;
   return impact;
@@ -193,6 +195,12 @@ void Simulation::handle_contact(int index, const Incident& incident) {
   const Motion::Pair& pair = moving.pair(incident.index);
   const World::Body& body = body_of(pair);
   const World::Obstacle& obstacle = obstacle_of(pair);
+  if (!body.is_ball) {
+    fail(incident.time, "contact unresolved: " + std::string(body.shape) + " '" + body.name + "' comes within " +
+                            "the reach of its farthest point from obstacle '" + obstacle.name +
+                            "'; impacts of solids other than points and spheres are not supported yet");
+    return;
+  }
   if (pair.contact.status == ContactStatus::overlapping_at_start) {
     const std::string text = "body '" + body.name + "' starts inside obstacle '" + obstacle.name + "'";
     if (incident.time == world_.start) throw InputError(body.where, text);
@@ -264,8 +272,7 @@ Sample Simulation::sample_at(double time) const {
     const Eigen::VectorXd rate = each->rate(time, states.back());
     for (const int b : each->group().bodies) {
       const World::Body& body = world_.bodies[static_cast<std::size_t>(b)];
-      sample.bodies[static_cast<std::size_t>(b)] = {body.name, states.back().segment<3>(body.offset),
-                                                    states.back().segment<3>(body.offset + 3), rate.segment<3>(body.offset + 3)};
+      sample.bodies[static_cast<std::size_t>(b)] = body_state(body, states.back(), rate);
     }
   }
   for (std::size_t i = 0; i < world_.states.size(); ++i) {

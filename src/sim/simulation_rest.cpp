@@ -2,6 +2,7 @@
 #include <cmath>
 #include <variant>
 
+#include "body_state.hpp"
 #include "simulation.hpp"
 #include "trajet/collide/respond/restitution.hpp"
 #include "trajet/geom/distance.hpp"
@@ -134,6 +135,7 @@ void Simulation::record_leave(const Motion& moving, const RestingContact& contac
   impact.position = q.segment<3>(contact.offset);
   impact.point = impact.position - body_of(pair).radius * contact.normal;
   impact.velocity_before = impact.velocity_after = q.segment<3>(contact.offset + 3);
+  impact.angular_velocity_before = impact.angular_velocity_after = angular_velocity(body_of(moving.pair(contact.pair)), q);
   impact.impulse = Vector3::Zero();
   record(impact);
 }

@@ -8,6 +8,7 @@
 #include "partition.hpp"
 #include "scene_numbers.hpp"
 #include "scene_symbols.hpp"
+#include "solid.hpp"
 #include "trajet/law/did_you_mean.hpp"
 #include "trajet/law/program_builder.hpp"
 
@@ -16,8 +17,6 @@ namespace {
 
 constexpr double kDefaultTolerance = 1e-12;
 constexpr double kDefaultSampleCount = 200.0;
-
-std::string of_body(const BodyDefinition& body) { return " of body '" + body.name + "'"; }
 
 /// Builds a World from a Scene: numbers first, then who depends on whom, then one program per group.
 class WorldBuilder {
@@ -126,7 +125,8 @@ class WorldBuilder {
   void find_dependencies() {
     for (std::size_t i = 0; i < scene_.bodies.size(); ++i) {
       const BodyDefinition& body = scene_.bodies[i];
-      for (const auto* law : {&body.acceleration, &body.force, &body.mass, &body.position_rate})
+      for (const auto* law : {&body.acceleration, &body.force, &body.mass, &body.position_rate, &body.angular_acceleration,
+                              &body.angular_acceleration_body, &body.torque, &body.torque_body, &body.force_point})
         if (*law) depend(static_cast<int>(i), **law);
     }
     for (std::size_t i = 0; i < scene_.states.size(); ++i) depend(state_member(i), scene_.states[i].rate);
@@ -171,16 +171,10 @@ class WorldBuilder {
   void place_in_groups() {
     for (std::size_t i = 0; i < scene_.bodies.size(); ++i) {
       const BodyDefinition& definition = scene_.bodies[i];
-      World::Body body;
-      body.name = definition.name;
-      body.where = definition.where;
-      if (const auto* ball = std::get_if<BallShape>(&definition.shape))
-        body.radius = numbers_.positive(ball->radius, "radius" + of_body(definition));
+      World::Body body = make_body(definition, numbers_, scene_.method);
       body.group = group_of(static_cast<int>(i));
-      Eigen::Vector<double, World::kBodySize> start;
-      start.head<3>() = numbers_.vector(definition.position, "position" + of_body(definition));
-      start.tail<3>() = numbers_.vector(definition.velocity, "velocity" + of_body(definition));
-      body.offset = append(group(body.group).start, start);
+      body.offset = append(group(body.group).start, start_state(definition, body, numbers_));
+      if (body.rotation) body.rotation->offset = body.offset + 6;
       group(body.group).bodies.push_back(static_cast<int>(i));
       world_.bodies.push_back(std::move(body));
     }
@@ -198,11 +192,14 @@ class WorldBuilder {
   }
 
   /// What laws, rates and events of a group may use: time, and all that moves in the group.
-  Symbols group_symbols(int index) const {
+  Symbols group_symbols(int index, ProgramBuilder& builder) const {
     Symbols symbols(&parameters_.symbols);
     symbols.set_input("t", 0);
-    for (const World::Body& body : world_.bodies)
-      if (body.group == index) add_body_symbols(symbols, body.name + ".", 1 + body.offset);
+    for (const World::Body& body : world_.bodies) {
+      if (body.group != index) continue;
+      add_body_symbols(symbols, body.name + ".", 1 + body.offset);
+      add_rotation_symbols(symbols, body.name + ".", body, builder);
+    }
     for (const World::ExtraState& state : world_.states)
       if (state.group == index) symbols.set_input(state.name, 1 + state.offset);
     return symbols;
@@ -210,44 +207,63 @@ class WorldBuilder {
 
   void compile_group(int index) {
     World::Group& target = group(index);
-    const Symbols symbols = group_symbols(index);
     const int input_count = 1 + static_cast<int>(target.start.size());
     ProgramBuilder law(input_count);
-    for (const int b : target.bodies) compile_body(b, symbols, input_count, law);
+    const Symbols symbols = group_symbols(index, law);
+    for (const int b : target.bodies) compile_body(b, symbols, law);
     for (std::size_t i = 0; i < scene_.states.size(); ++i)
       if (world_.states[i].group == index) law.add_output(law.compile_scalar(scene_.states[i].rate, symbols));
     target.law = law.build();
-    for (const int e : target.events) compile_event(e, symbols, input_count);
+    for (const int b : target.bodies) compile_mass(b, input_count);
+    for (const int e : target.events) compile_event(e, input_count);
   }
 
-  void compile_body(int index, const Symbols& group_scope, int input_count, ProgramBuilder& law) {
-    const BodyDefinition& definition = scene_.bodies[static_cast<std::size_t>(index)];
-    World::Body& body = world_.bodies[static_cast<std::size_t>(index)];
-    const int position = 1 + body.offset;
+  /// The names of a body's own laws.
+  static Symbols own_symbols(const Symbols& group_scope, const World::Body& body, ProgramBuilder& builder) {
     Symbols own(&group_scope);
-    add_body_symbols(own, "", position);
+    add_body_symbols(own, "", 1 + body.offset);
+    add_rotation_symbols(own, "", body, builder);
+    return own;
+  }
+
+  void compile_body(int index, const Symbols& group_scope, ProgramBuilder& law) {
+    const BodyDefinition& definition = scene_.bodies[static_cast<std::size_t>(index)];
+    const World::Body& body = world_.bodies[static_cast<std::size_t>(index)];
+    const int position = 1 + body.offset;
+    const Symbols own = own_symbols(group_scope, body, law);
 
     law.add_output(definition.position_rate ? law.compile_vector(*definition.position_rate, own)
                                             : law.inputs({position + 3, position + 4, position + 5}));
     if (definition.acceleration && definition.force)
       throw InputError(definition.force->where(), "body '" + body.name + "' has both `acceleration` and `force`");
-    if (definition.force && !definition.mass)
+    if (definition.force && !definition.mass && !definition.density)
       throw InputError(definition.force->where(), "body '" + body.name + "' has a `force` but no `mass`");
     if (definition.acceleration) {
       law.add_output(law.compile_vector(*definition.acceleration, own));
     } else if (definition.force) {
-      law.add_output(law.divide(law.compile_vector(*definition.force, own), law.compile_scalar(*definition.mass, own)));
+      law.add_output(law.divide(law.compile_vector(*definition.force, own), mass_of(definition, own, law)));
     } else {
       for (int i = 0; i < 3; ++i) law.add_output(law.constant(0.0));
     }
-    if (definition.mass) {
-      ProgramBuilder mass(input_count);
-      mass.add_output(mass.compile_scalar(*definition.mass, own));
-      body.mass = mass.build();
-    }
+    if (body.rotation) add_rotation_law(definition, body, own, law);
   }
 
-  void compile_event(int index, const Symbols& symbols, int input_count) {
+  ProgramBuilder::Value mass_of(const BodyDefinition& definition, const Symbols& own, ProgramBuilder& builder) const {
+    if (definition.mass) return builder.compile_scalar(*definition.mass, own);
+    return builder.constant(*mass_from_density(definition, numbers_));
+  }
+
+  void compile_mass(int index, int input_count) {
+    const BodyDefinition& definition = scene_.bodies[static_cast<std::size_t>(index)];
+    World::Body& body = world_.bodies[static_cast<std::size_t>(index)];
+    if (!definition.mass && !definition.density) return;
+    ProgramBuilder mass(input_count);
+    const Symbols symbols = group_symbols(body.group, mass);
+    mass.add_output(mass_of(definition, own_symbols(symbols, body, mass), mass));
+    body.mass = mass.build();
+  }
+
+  void compile_event(int index, int input_count) {
     const EventDefinition& definition = scene_.events[static_cast<std::size_t>(index)];
     World::Event& event = world_.events[static_cast<std::size_t>(index)];
     event.name = definition.name;
@@ -255,13 +271,15 @@ class WorldBuilder {
     event.direction = definition.direction;
     event.action = definition.action;
     ProgramBuilder when(input_count);
-    when.add_output(when.compile_scalar(definition.when, symbols));
+    when.add_output(when.compile_scalar(definition.when, group_symbols(event.group, when)));
     event.when = when.build();
     ProgramBuilder set(input_count);
+    const Symbols symbols = group_symbols(event.group, set);
     for (const NamedExpression& assignment : definition.set) {
       const AssignmentTarget target = find_target(assignment);  // in the event's group, which depends on it
-      set.add_output(target.size == 3 ? set.compile_vector(assignment.value, symbols)
-                                      : set.compile_scalar(assignment.value, symbols));
+      const ProgramBuilder::Value value = target.size == 3 ? set.compile_vector(assignment.value, symbols)
+                                                           : set.compile_scalar(assignment.value, symbols);
+      set.add_output(target.turning == nullptr ? value : in_frame_of_state(value, *target.turning, set));
       for (int i = 0; i < target.size; ++i) event.targets.push_back(target.offset + i);
     }
     event.set = set.build();
@@ -269,6 +287,8 @@ class WorldBuilder {
 
   void compile_exact(const NamedExpression& closed_form) {
     const AssignmentTarget target = find_target(closed_form);
+    if (target.turning != nullptr)
+      throw InputError(closed_form.where, "[exact] knows no closed form of '" + closed_form.name + "'");
     Symbols symbols(&parameters_.symbols);
     symbols.set_input("t", 0);
     ProgramBuilder value(1);
@@ -282,6 +302,7 @@ class WorldBuilder {
     int group;
     int offset;
     int size;
+    const World::Body* turning = nullptr;  ///< whose angular velocity it is
   };
 
   AssignmentTarget find_target(const NamedExpression& assignment) const {
@@ -289,10 +310,16 @@ class WorldBuilder {
       if (state.name == assignment.name) return {state.group, state.offset, 1};
     const std::size_t dot = assignment.name.find('.');
     if (dot != std::string::npos) {
-      const BodyPart* part = find_body_part(std::string_view(assignment.name).substr(dot + 1));
-      for (const World::Body& body : world_.bodies)
-        if (part != nullptr && body.name == assignment.name.substr(0, dot))
-          return {body.group, body.offset + part->first, part->size};
+      const std::string_view name = std::string_view(assignment.name).substr(dot + 1);
+      const BodyPart* part = find_body_part(name);
+      for (const World::Body& body : world_.bodies) {
+        if (body.name != assignment.name.substr(0, dot)) continue;
+        if (part != nullptr) return {body.group, body.offset + part->first, part->size};
+        if (name == "w" && body.rotation)
+          return {body.group, body.rotation->offset + body.rotation->layout.size(), 3, &body};
+        if (name == "w")
+          throw InputError(assignment.where, "body '" + body.name + "' does not turn: give it an `angular_velocity`, which may be 0");
+      }
     }
     throw InputError(assignment.where, "'" + assignment.name + "' is neither an extra state nor a part of a body such as ball.v");
   }

@@ -37,6 +37,7 @@ LIBRARIES = {
     "tiny_gltf.h": {"io"},
     "nlohmann": {"io", "viz"},
     "fmt": {"io", "viz", "apps"},
+    "assimp": {"io"},
     "CLI": {"apps"},
 }
 

@@ -16,6 +16,7 @@ struct SceneOverrides {
   std::optional<std::string> rtol;
   std::optional<std::string> atol;
   std::optional<std::string> end;
+  std::optional<std::string> orientation{};
 };
 
 /// Replaces those parts of the scene. A `step` takes the place of `steps`.

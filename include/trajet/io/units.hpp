@@ -23,6 +23,11 @@ inline constexpr Dimension kSpeed{{1, 0, -1}};
 inline constexpr Dimension kAcceleration{{1, 0, -2}};
 inline constexpr Dimension kForce{{1, 1, -2}};
 inline constexpr Dimension kAngle{{0, 0, 0, 0, 0, 0, 0, 1}};
+inline constexpr Dimension kAngularVelocity{{0, 0, -1, 0, 0, 0, 0, 1}};
+inline constexpr Dimension kAngularAcceleration{{0, 0, -2, 0, 0, 0, 0, 1}};
+inline constexpr Dimension kDensity{{-3, 1}};
+inline constexpr Dimension kInertia{{2, 1}};
+inline constexpr Dimension kTorque{{2, 1, -2}};
 
 /// Name and SI unit for messages: `length [m]`, `[m^2 kg^3]` where the dimension has no common name.
 std::string describe(const Dimension& dimension);

@@ -54,5 +54,13 @@ struct Eigen::NumTraits<trajet::Term> : Eigen::GenericNumTraits<trajet::Term> {
   using NonInteger = trajet::Term;
   using Nested = trajet::Term;
   using Literal = double;
-  enum { IsComplex = 0, IsInteger = 0, IsSigned = 1, RequireInitialization = 1, ReadCost = 1, AddCost = 1, MulCost = 1 };
+  enum {
+    IsComplex = 0,
+    IsInteger = 0,
+    IsSigned = 1,
+    RequireInitialization = 1,
+    ReadCost = 1,
+    AddCost = 1,
+    MulCost = 1
+  };
 };

@@ -41,6 +41,9 @@ class ImplicitStepper {
     next_step_ = first_step_;
   }
 
+  /// Replaces the state; the size of the next step stays.
+  void amend(const State& q) { step_.start(time(), q); }
+
   StepStatus advance(double t_limit) {
     assert(t_limit != time());
     const double t0 = time();

@@ -37,6 +37,8 @@ struct Impact {
   Vector3 position;         ///< of the body's centre of mass
   Vector3 velocity_before;
   Vector3 velocity_after;
+  Vector3 angular_velocity_before = Vector3::Zero();
+  Vector3 angular_velocity_after = Vector3::Zero();
   Vector3 impulse;          ///< per mass where the body has none: m/s, else N s
   double time_error_bound = 0.0;  ///< s
 };
@@ -48,11 +50,25 @@ struct EventRecord {
   int direction = 0;  ///< +1 rising, -1 falling
 };
 
-struct BodyState {
-  std::string body;
+/// A named point of a body. World frame, SI units.
+struct PointState {
+  std::string point;
   Vector3 position;
   Vector3 velocity;
   Vector3 acceleration;
+};
+
+/// World frame W, body frame B, SI units.
+struct BodyState {
+  std::string body;
+  Vector3 position;  ///< of the centre of mass
+  Vector3 velocity;
+  Vector3 acceleration;
+  bool turns = false;                            ///< it has an angular velocity, which may be 0
+  Quaternion orientation{1.0, 0.0, 0.0, 0.0};    ///< q_WB, as carried: unit, unless the way of carrying it lets it drift
+  Matrix3 rotation_matrix = Matrix3::Identity();  ///< R_WB, as carried: it may stretch where the way lets it
+  Vector3 angular_velocity = Vector3::Zero();
+  std::vector<PointState> points;
 };
 
 struct NamedValue {

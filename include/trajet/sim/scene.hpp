@@ -8,14 +8,17 @@
 
 #include "trajet/collide/detect/contact.hpp"
 #include "trajet/error.hpp"
+#include "trajet/geom/triangle_mesh.hpp"
 #include "trajet/law/expression.hpp"
+#include "trajet/rigid/orientation.hpp"
 
 namespace trajet {
 
 /// A scene: everything that a motion is made of, as plain data. The scene file and C++ programs fill the same struct.
 ///
 /// Every quantity is an Expression over the parameters, SI units, world frame W; only laws (`acceleration`, `force`,
-/// `position_rate`, `rate`, `when`, `set`) may also use t and the states. `World` gives it numbers and checks it.
+/// `torque`, `angular_acceleration`, `position_rate`, `rate`, `when`, `set`) may also use t and the states. `World` gives
+/// it numbers and checks it.
 
 struct NamedExpression {
   std::string name;
@@ -38,14 +41,45 @@ struct MethodOptions {
   int order = 0;                   ///< series methods; 0: the method chooses
   long max_steps = 1'000'000;
   Locator locate = Locator::polynomial;  ///< how the times of impacts are found
+  OrientationWay orientation = OrientationWay::quaternion_normalized;  ///< how orientations are carried
   SourceLocation where{};          ///< of the name, or of the table
+  SourceLocation orientation_where{};
 };
 
 struct PointShape {};
 struct BallShape {
   Expression radius;  ///< m
 };
-using BodyShape = std::variant<PointShape, BallShape>;
+struct CuboidShape {
+  Expression size;  ///< full edge lengths, m
+};
+struct CylinderShape {
+  Expression radius, height;  ///< m; along z of the body
+};
+struct CapsuleShape {
+  Expression radius, height;  ///< m; along z of the body; the height without the half spheres
+};
+struct SoccerBallShape {
+  Expression radius;  ///< of the corners of the truncated icosahedron, m
+};
+struct HullShape {
+  std::vector<Expression> points;  ///< m
+};
+struct MeshShape {
+  TriangleMesh mesh;
+  Expression scale = 1.0;  ///< of the mesh's coordinates, m
+};
+/// Solids have their centre of mass at the origin of the body's frame: hulls and meshes are moved there.
+using BodyShape =
+    std::variant<PointShape, BallShape, CuboidShape, CylinderShape, CapsuleShape, SoccerBallShape, HullShape, MeshShape>;
+
+/// Exactly one of the three, or none for the identity.
+struct OrientationDefinition {
+  std::optional<Expression> axis, angle_rad;
+  std::vector<Expression> quaternion;  ///< w, x, y, z; normalised
+  std::vector<Expression> matrix;      ///< three rows; a rotation
+  SourceLocation where{};
+};
 
 /// A moving body. Its name is usable in every law as NAME.r, NAME.vx, ….
 struct BodyDefinition {
@@ -57,6 +91,19 @@ struct BodyDefinition {
   std::optional<Expression> force;         ///< N
   std::optional<Expression> mass;          ///< kg, may depend on t and the states
   std::optional<Expression> position_rate; ///< dr/dt in m/s; default: the velocity
+
+  OrientationDefinition orientation{};  ///< at the start
+  std::optional<Expression> angular_velocity;       ///< w_WB_W at the start, rad/s; or:
+  std::optional<Expression> angular_velocity_body;  ///< w_WB_B
+  std::optional<Expression> angular_acceleration;       ///< rad/s^2 in the world's frame; or:
+  std::optional<Expression> angular_acceleration_body;  ///< in the body's; neither: Euler's equations, if it has an inertia
+  std::optional<Expression> torque;       ///< N m about the centre of mass, in the world's frame
+  std::optional<Expression> torque_body;  ///< N m, in the body's frame; the two add up
+  std::optional<Expression> force_point;  ///< where the force acts, in the body's frame, m; default: the centre of mass
+  std::optional<Expression> density;      ///< kg/m^3, of an extended shape; instead of the mass
+  std::optional<Expression> principal_inertia;  ///< about the centre of mass along the body's axes, kg m^2; or:
+  std::vector<Expression> inertia;              ///< three rows, body's frame
+  std::vector<NamedExpression> points;          ///< of the body, in its frame, m, to be reported
   SourceLocation where{};
 };
 
@@ -76,13 +123,6 @@ struct TriangleDefinition {
 };
 struct SphereDefinition {
   Expression center, radius;
-};
-/// Exactly one of the three, or none for the identity.
-struct OrientationDefinition {
-  std::optional<Expression> axis, angle_rad;
-  std::vector<Expression> quaternion;  ///< w, x, y, z; normalised
-  std::vector<Expression> matrix;      ///< three rows; a rotation
-  SourceLocation where{};
 };
 struct BoxDefinition {
   Expression center, size;  ///< size: full edge lengths, m

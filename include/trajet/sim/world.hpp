@@ -5,8 +5,10 @@
 #include <vector>
 
 #include "trajet/geom/shapes.hpp"
+#include "trajet/geom/triangle_mesh.hpp"
 #include "trajet/law/program.hpp"
 #include "trajet/ode/registry.hpp"
+#include "trajet/rigid/orientation.hpp"
 #include "trajet/sim/run_result.hpp"
 #include "trajet/sim/scene.hpp"
 
@@ -16,17 +18,34 @@ namespace trajet {
 ///
 /// Bodies, extra states and events that refer to each other form a group, which is integrated together; groups know nothing
 /// of each other and keep steps of their own. The state of a group is, for each of its bodies, position and velocity
-/// (m, m/s; world frame), then its extra states. Programs take t and that state.
+/// (m, m/s; world frame) and, if it turns, orientation and angular velocity (rad/s), then its extra states. Programs take
+/// t and that state.
 struct World {
-  /// Components of a body's part of the state.
-  static constexpr int kBodySize = 6;
+  /// How a body turns.
+  struct Rotation {
+    OrientationLayout layout;
+    int offset = 0;                  ///< of the orientation in the group's state; the angular velocity follows it
+    bool is_free = false;            ///< no torque, or a constant angular velocity: there is a closed form
+    std::optional<Matrix3> inertia{};  ///< about the centre of mass, body's frame, kg m^2; none: kinematics
+  };
+
+  struct Point {
+    std::string name;
+    Vector3 p_B;  ///< m
+  };
 
   struct Body {
     std::string name;
-    double radius = 0.0;  ///< m; 0: a point
+    std::string_view shape;  ///< as scenes name it
+    double radius = 0.0;     ///< m, around the centre of mass; 0: a point
+    bool is_ball = true;     ///< the radius is that of the surface, else of the farthest point
+    TriangleMesh surface;    ///< body's frame; of boxes, soccer balls, hulls and meshes
+    std::vector<Point> points;
     int group = 0;
-    int offset = 0;  ///< of the position in the group's state; the velocity follows it
-    std::optional<Program> mass;  ///< kg, one output
+    int offset = 0;                      ///< of the position in the group's state; the velocity follows it
+    Quaternion q_WB{1.0, 0.0, 0.0, 0.0};  ///< at the start, unit
+    std::optional<Rotation> rotation;    ///< none: it does not turn
+    std::optional<Program> mass;         ///< kg, one output
     SourceLocation where{};
   };
 

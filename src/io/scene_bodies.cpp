@@ -1,0 +1,132 @@
+#include <array>
+
+#include "mesh_file.hpp"
+#include "scene_solids.hpp"
+
+namespace trajet::detail {
+
+namespace {
+
+using Keys = std::vector<std::string_view>;
+
+BodyShape read_hull(const TableReader& table) { return HullShape{table.vector_list("points", kLength)}; }
+
+BodyShape read_mesh_shape(const TableReader& table) {
+  MeshShape shape{read_mesh(table)};
+  if (table.has("scale")) shape.scale = table.scalar("scale", kDimensionless);
+  return shape;
+}
+
+/// Shapes of bodies: one row each, with the keys that describe them.
+struct BodyKind {
+  std::string_view name;
+  Keys keys;
+  BodyShape (*read)(const TableReader&);
+};
+
+const std::array<BodyKind, 8>& body_kinds() {
+  using Table = const TableReader&;
+  static const std::array<BodyKind, 8> kinds{{
+      {"point", {}, [](Table) { return BodyShape(PointShape{}); }},
+      {"sphere", {"radius"}, [](Table t) { return BodyShape(BallShape{t.scalar("radius", kLength)}); }},
+      {"box", {"size"}, [](Table t) { return BodyShape(CuboidShape{t.vector("size", kLength)}); }},
+      {"soccer-ball", {"radius"}, [](Table t) { return BodyShape(SoccerBallShape{t.scalar("radius", kLength)}); }},
+      {"cylinder",
+       {"radius", "height"},
+       [](Table t) {
+         return BodyShape(CylinderShape{t.scalar("radius", kLength), t.scalar("height", kLength)});
+       }},
+      {"capsule",
+       {"radius", "height"},
+       [](Table t) {
+         return BodyShape(CapsuleShape{t.scalar("radius", kLength), t.scalar("height", kLength)});
+       }},
+      {"hull", {}, read_hull},  // its `points` are the corners
+      {"mesh", {"file", "scale"}, read_mesh_shape},
+  }};
+  return kinds;
+}
+
+const BodyKind& read_kind(const TableReader& table) {
+  std::vector<std::string_view> names;
+  for (const BodyKind& kind : body_kinds()) names.push_back(kind.name);
+  return body_kinds()[table.choice("shape", names, 0)];
+}
+
+void read_translation(const TableReader& table, BodyDefinition& body) {
+  if (table.has("position")) body.position = table.vector("position", kLength);
+  if (table.has("velocity")) body.velocity = table.vector("velocity", kSpeed);
+  body.acceleration = table.optional_vector("acceleration", kAcceleration);
+  body.force = table.optional_vector("force", kForce);
+  body.mass = table.optional_scalar("mass", kMass);
+  body.density = table.optional_scalar("density", kDensity);
+  body.position_rate = table.optional_vector("position_rate", kSpeed);
+  if (body.acceleration && body.force)
+    table.fail("force", "a body moves by its acceleration or by a force with a mass, not by both");
+  if (body.force && !body.mass && !body.density) table.fail("force", "a force needs the key 'mass'");
+}
+
+void read_rotation(const TableReader& table, BodyDefinition& body) {
+  if (table.has("orientation")) body.orientation = read_orientation(table.subtable("orientation"));
+  body.angular_velocity = table.optional_vector("angular_velocity", kAngularVelocity);
+  body.angular_velocity_body = table.optional_vector("angular_velocity_body", kAngularVelocity);
+  body.angular_acceleration = table.optional_vector("angular_acceleration", kAngularAcceleration);
+  body.angular_acceleration_body = table.optional_vector("angular_acceleration_body", kAngularAcceleration);
+  body.torque = table.optional_vector("torque", kTorque);
+  body.torque_body = table.optional_vector("torque_body", kTorque);
+  body.force_point = table.optional_vector("force_point", kLength);
+  if (!table.has("inertia")) return;
+  const toml::array* rows = table.table().get("inertia")->as_array();
+  if (rows != nullptr && !rows->empty() && rows->get(0)->is_array()) {
+    body.inertia = table.vectors("inertia", 3, kInertia);
+  } else {
+    body.principal_inertia = table.vector("inertia", kInertia);
+  }
+}
+
+void read_points(const TableReader& table, BodyDefinition& body) {
+  const TableReader points = table.subtable("points");
+  for (const auto& [key, node] : entries_in_file_order(points.table()))
+    body.points.push_back({std::string(key->str()), points.vector(key->str(), kLength), points.where(key->str())});
+}
+
+}  // namespace
+
+BodyDefinition read_body(const TableReader& table) {
+  const BodyKind& kind = read_kind(table);
+  if (kind.name == "point" && table.has("radius"))
+    table.fail("radius", "a point has no radius; for one, write shape = \"sphere\"");
+  Keys keys = {"name",
+               "shape",
+               "position",
+               "velocity",
+               "acceleration",
+               "force",
+               "mass",
+               "density",
+               "position_rate",
+               "orientation",
+               "angular_velocity",
+               "angular_velocity_body",
+               "angular_acceleration",
+               "angular_acceleration_body",
+               "torque",
+               "torque_body",
+               "force_point",
+               "inertia",
+               "points"};
+  keys.insert(keys.end(), kind.keys.begin(), kind.keys.end());
+  const Keys planned = {"restitution", "friction"};
+  table.check_keys(keys, planned);
+
+  BodyDefinition body;
+  body.where = table.where("name");
+  body.name = table.text("name");
+  body.shape = kind.read(table);
+  read_translation(table, body);
+  read_rotation(table, body);
+  if (kind.name != "hull" && table.has("points")) read_points(table, body);
+  return body;
+}
+
+}  // namespace trajet::detail

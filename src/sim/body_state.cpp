@@ -1,0 +1,52 @@
+#include "body_state.hpp"
+
+#include "trajet/rigid/kinematics.hpp"
+
+namespace trajet {
+namespace {
+
+/// A vector that the state, or its rate, holds behind the orientation, in the world's frame.
+Vector3 in_world(const World::Rotation& rotation, const Eigen::VectorXd& q, const Eigen::VectorXd& holder) {
+  const Vector3 v = holder.segment<3>(rotation.offset + rotation.layout.size());
+  if (rotation.layout.frame == Frame::world) return v;
+  return rotation.layout.rotation(q.data() + rotation.offset) * v;
+}
+
+}  // namespace
+
+Vector3 angular_velocity(const World::Body& body, const Eigen::VectorXd& q) {
+  return body.rotation ? in_world(*body.rotation, q, q) : Vector3(0, 0, 0);
+}
+
+BodyState body_state(const World::Body& body, const Eigen::VectorXd& q, const Eigen::VectorXd& dq) {
+  BodyState state;
+  state.body = body.name;
+  state.position = q.segment<3>(body.offset);
+  state.velocity = q.segment<3>(body.offset + 3);
+  state.acceleration = dq.segment<3>(body.offset + 3);
+  state.orientation = body.q_WB;
+  Vector3 angular_acceleration = Vector3::Zero();
+  if (body.rotation) {
+    const World::Rotation& rotation = *body.rotation;
+    const double* part = q.data() + rotation.offset;
+    state.turns = true;
+    state.rotation_matrix = rotation.layout.matrix(part);
+    state.orientation = rotation.layout.way == OrientationWay::matrix
+                            ? from_rotation_matrix(nearest_rotation(state.rotation_matrix))
+                            : rotation.layout.quaternion(part);
+    state.angular_velocity = angular_velocity(body, q);
+    // d(R w_B)/dt = R dw_B/dt, since w x w = 0: the same transformation
+    angular_acceleration = in_world(rotation, q, dq);
+  } else {
+    state.rotation_matrix = rotation_matrix(body.q_WB);
+  }
+  const PointMotion center{state.position, dq.segment<3>(body.offset), state.acceleration};
+  for (const World::Point& point : body.points) {
+    const PointMotion motion =
+        point_motion(center, state.rotation_matrix, state.angular_velocity, angular_acceleration, point.p_B);
+    state.points.push_back({point.name, motion.position, motion.velocity, motion.acceleration});
+  }
+  return state;
+}
+
+}  // namespace trajet

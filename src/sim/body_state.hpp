@@ -1,0 +1,14 @@
+#pragma once
+
+#include "trajet/sim/run_result.hpp"
+#include "trajet/sim/world.hpp"
+
+namespace trajet {
+
+/// What a report says of a body when its group is in state q, whose rate is dq.
+BodyState body_state(const World::Body& body, const Eigen::VectorXd& q, const Eigen::VectorXd& dq);
+
+/// The angular velocity of a body, world frame, rad/s.
+Vector3 angular_velocity(const World::Body& body, const Eigen::VectorXd& q);
+
+}  // namespace trajet

@@ -1,0 +1,33 @@
+#pragma once
+
+#include "scene_numbers.hpp"
+#include "trajet/law/program_builder.hpp"
+#include "trajet/sim/world.hpp"
+
+namespace trajet {
+
+/// The numbers of a body's definition, but for its place in the state: shape, inertia, orientation, points, how it
+/// turns. Throws InputError that points at the place.
+World::Body make_body(const BodyDefinition& definition, const SceneNumbers& numbers, const MethodOptions& method);
+
+/// The mass of an extended shape with a density, kg; none if the body has no density.
+std::optional<double> mass_from_density(const BodyDefinition& definition, const SceneNumbers& numbers);
+
+/// Position, velocity, orientation and angular velocity at the start.  // (6, or 6 + orientation + 3)
+Eigen::VectorXd start_state(const BodyDefinition& definition, const World::Body& body, const SceneNumbers& numbers);
+
+/// Adds the meanings of the names of a body's rotation: `prefix` is "" for its own laws or "NAME." for those of others.
+/// What they compute becomes part of the builder's program where it is used.
+void add_rotation_symbols(Symbols& symbols, const std::string& prefix, const World::Body& body,
+                          ProgramBuilder& builder);
+
+/// Appends the rates of a turning body's orientation and angular velocity to a group's law. `own`: the names of its
+/// laws.
+void add_rotation_law(const BodyDefinition& definition, const World::Body& body, const Symbols& own,
+                      ProgramBuilder& law);
+
+/// A vector in the world's frame, written in that in which the state holds the body's angular velocity.
+ProgramBuilder::Value in_frame_of_state(const ProgramBuilder::Value& vector_W, const World::Body& body,
+                                        ProgramBuilder& builder);
+
+}  // namespace trajet

@@ -1,0 +1,177 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <numbers>
+#include <string>
+
+#include "scene_run.hpp"
+
+namespace trajet {
+namespace {
+
+using test::final_of;
+using test::run_text;
+
+std::string scene(const std::string& body, const std::string& rest = "") {
+  return "[time]\nend = 1\n[[body]]\nname = \"b\"\n" + body + "\n" + rest;
+}
+
+std::string error_of(const std::string& text) {
+  try {
+    check(parse_scene(text, "s"));
+  } catch (const std::exception& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+TEST(SolidScene, MistakesAreErrorsAtTheirPlace) {
+  struct {
+    const char* body;
+    const char* place;
+    const char* words;
+  } const cases[] = {
+      {"torque = [0, 0, 1]", "s:5:11", "a torque but no inertia"},
+      {"shape = \"sphere\"\nradius = 1\ntorque = [0, 0, 1]", "s:7:11", "a torque but no inertia"},
+      {"inertia = [1, 2, 4]\ntorque = [0, 0, 1]", "s:5:12", "belongs to no body"},
+      {"inertia = [1, 0, 1]\ntorque = [0, 0, 1]", "s:5:12", "belongs to no body"},
+      {"inertia = [[1, 1, 0], [0, 1, 0], [0, 0, 1]]\ntorque = [0, 0, 1]", "s:5:13", "not symmetric"},
+      {"angular_velocity = [0, 0, 1]\nangular_velocity_body = [0, 0, 1]", "s:6:26", "both"},
+      {"angular_acceleration = [0, 0, 1]\ntorque = [0, 0, 1]\ninertia = [1, 1, 1]", "s:6:11", "both"},
+      {"density = 3", "s:5:11", "a point has no volume"},
+      {"shape = \"sphere\"\nradius = 1\ndensity = 3\nmass = 2", "s:7:11", "both"},
+      {"shape = \"box\"\nsize = [1, 0, 1]", "s:6:9", "must be positive"},
+      {"shape = \"hull\"\npoints = [[0,0,0], [1,0,0], [0,1,0], [1,1,0]]", "s:4:8", "do not lie in a plane"},
+      {"shape = \"hull\"\npoints = [[0,0,0], [1,0,0]]", "s:4:8", "at least four points"},
+      {"orientation = {quaternion = [0, 0, 0, 0]}", "s:5:30", "is zero"},
+      {"orientation = {axis = [0, 0, 0], angle = 1}", "s:5:24", "no direction"},
+      {"orientation = {matrix = [[1, 0, 0], [0, 1, 0], [0, 0, -1]]}", "s:5:27", "no rotation matrix"},
+      {"orientation = {matrix = [[1, 0, 0], [0, 1, 0], [0, 0.1, 1]]}", "s:5:27", "no rotation matrix"},
+      {"force_point = [0, 0, 1]", "s:5:16", "no `force`"},
+      {"angular_velocity = \"[0, 0, t]\"", "s:5:28", "only laws"},
+      {"angular_acceleration = \"[0, 0, wq]\"", "s:5:32", "unknown name"},
+  };
+  for (const auto& c : cases) {
+    const std::string message = error_of(scene(c.body));
+    EXPECT_TRUE(message.starts_with(c.place)) << message << "\n  for:\n" << c.body;
+    EXPECT_NE(message.find(c.words), std::string::npos) << message << "\n  for:\n" << c.body;
+  }
+}
+
+TEST(SolidScene, WaysThatDoNotSuitTheLawAreErrors) {
+  const std::string exact = "[method]\norientation = \"exact\"\n";
+  EXPECT_NE(error_of(scene("inertia = [1, 2, 3]\ntorque = [0, 0, 1]", exact)).find("s:6:11"), std::string::npos);
+  EXPECT_NE(error_of(scene("angular_acceleration = [0, 0, 1]", exact)).find("closed forms only"), std::string::npos);
+  const std::string matrix = "[method]\norientation = \"matrix\"\n";
+  EXPECT_NE(error_of(scene("inertia = [1, 2, 3]\ntorque = \"[0, 0, qw]\"", matrix)).find("carries no quaternion"),
+            std::string::npos);
+  const std::string set = "[[event]]\nname = \"e\"\nwhen = \"t - 0.5\"\nset = {b.w = [0, 0, 1]}\n";
+  EXPECT_NE(error_of(scene("", set)).find("does not turn"), std::string::npos);
+  EXPECT_EQ(error_of(scene("angular_velocity = [0, 0, 0]", set)), "no error");
+}
+
+TEST(SolidScene, OrientationsInAllForms) {
+  const char* const forms[] = {"{axis = [0, 0, 2], angle = \"90 deg\"}", "{quaternion = [2, 0, 0, 2]}",
+                               "{matrix = [[0, -1, 0], [1, 0, 0], [0, 0, 1]]}"};
+  for (const char* form : forms)
+    for (const char* spin :
+         {"", "\nangular_velocity_body = [0, 0, 0]", "\ninertia = [1, 2, 2.5]\nangular_velocity = [0, 0, 0]"}) {
+      const BodyState b = final_of(run_text(scene("orientation = " + std::string(form) + spin)), "b");
+      EXPECT_LE((b.rotation_matrix * Vector3(1, 0, 0) - Vector3(0, 1, 0)).norm(), 1e-15) << form << spin;
+      EXPECT_LE(std::abs(b.orientation.w() - std::sqrt(0.5)), 1e-15);
+    }
+}
+
+TEST(SolidScene, LawsReadTheRotation) {
+  // thrust along the body's x axis, which turns once around z in 1 s: v = (sin, 1 - cos) / (2 pi)
+  const std::string thrust = "angular_velocity = [0, 0, \"2*pi\"]\nacceleration = \"[Rxx, Ryx, Rzx]\"\n";
+  const std::string same =
+      "angular_velocity = [0, 0, \"2*pi\"]\nacceleration = \"[qw^2 + qx^2 - qy^2 - qz^2, 2*qw*qz, 0]\"\n";
+  for (const std::string& body : {thrust, same}) {
+    const BodyState b = final_of(run_text(scene(body, "[method]\nrtol = 1e-14\natol = 1e-14\n")), "b");
+    EXPECT_LE(b.velocity.norm(), 1e-13);
+    EXPECT_LE((b.position - Vector3(0, 1 / (2 * std::numbers::pi), 0)).norm(), 1e-13);
+  }
+  // another body follows its angular velocity, in the world and from an event
+  const std::string others =
+      "[[body]]\nname = \"c\"\nvelocity = [0, 0, 0]\nposition_rate = \"b.w + [b.wx, b.wy, b.wz] + b.w_body\"\n"
+      "[[event]]\nname = \"quarter\"\nwhen = \"b.Rxx\"\n";
+  const RunResult result = run_text(scene("angular_velocity = [0, 0, \"2*pi\"]", others));
+  EXPECT_NEAR(final_of(result, "c").position.z(), 6 * std::numbers::pi, 1e-12);
+  ASSERT_EQ(result.events.size(), 2u);
+  EXPECT_NEAR(result.events[0].time, 0.25, 1e-12);
+}
+
+TEST(SolidScene, EventsSetTheAngularVelocity) {
+  const std::string event = "[[event]]\nname = \"e\"\nwhen = \"t - 0.5\"\nset = {b.w = \"-b.w\"}\n";
+  for (const char* body : {"angular_velocity = [1, 2, 3]", "inertia = [1, 1.5, 2]\nangular_velocity = [1, 2, 3]"})
+    for (const char* way : {"quaternion-normalized", "matrix", "rotation-vector", "exact"}) {
+      const RunResult result = run_text(scene(body, event + "[method]\norientation = \"" + way + "\"\n"));
+      // the motion runs backward to where it began
+      EXPECT_LE((final_of(result, "b").angular_velocity + Vector3(1, 2, 3)).norm(), 1e-10) << body << way;
+      EXPECT_NEAR(std::abs(final_of(result, "b").orientation.w()), 1.0, 1e-10) << body << way;
+    }
+}
+
+TEST(SolidScene, InertiaOfAShapeIsThatOfItsMassOrDensity) {
+  const std::string spin = "\nangular_velocity_body = [1, 0.1, 2]\n";
+  const auto run_shape = [&](const std::string& body) { return final_of(run_text(scene(body + spin)), "b"); };
+  const BodyState given = run_shape("inertia = [\"13/12*6\", \"10/12*6\", \"5/12*6\"]");
+  for (const char* shape :
+       {"shape = \"box\"\nsize = [1, 2, 3]\nmass = 6", "shape = \"box\"\nsize = [1, 2, 3]\ndensity = 1",
+        "shape = \"hull\"\ndensity = 1\npoints = [[0,0,0], [1,0,0], [0,2,0], [0,0,3], [1,2,0], [1,0,3], [0,2,3], "
+        "[1,2,3]]"})
+    EXPECT_LE((run_shape(shape).angular_velocity - given.angular_velocity).norm(), 1e-10) << shape;
+}
+
+TEST(SolidScene, MeshesAreReadFromFiles) {
+  const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "trajet_mesh_test";
+  std::filesystem::create_directories(folder);
+  std::ofstream(folder / "box.obj") << "v 0 0 0\nv 1 0 0\nv 1 2 0\nv 0 2 0\nv 0 0 3\nv 1 0 3\nv 1 2 3\nv 0 2 3\n"
+                                       "f 4 3 2 1\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n";
+  std::ofstream(folder / "open.obj") << "v 0 0 0\nv 1 0 0\nv 0 2 0\nf 1 2 3\n";
+  const auto run_mesh = [&](const std::string& body) {
+    return run(parse_scene(scene(body + "\nangular_velocity_body = [1, 0.1, 2]\n"), (folder / "scene.toml").string()));
+  };
+  const BodyState mesh = final_of(run_mesh("shape = \"mesh\"\nfile = \"box.obj\"\nscale = 0.5\nmass = 6"), "b");
+  const BodyState box = final_of(run_mesh("shape = \"box\"\nsize = [0.5, 1, 1.5]\nmass = 6"), "b");
+  EXPECT_LE((mesh.angular_velocity - box.angular_velocity).norm(), 1e-10);
+  EXPECT_THROW(run_mesh("shape = \"mesh\"\nfile = \"open.obj\""), InputError);
+  EXPECT_THROW(run_mesh("shape = \"mesh\"\nfile = \"none.obj\""), FileError);
+  std::filesystem::remove_all(folder);
+}
+
+TEST(SolidScene, ABallThatTurnsBouncesAndTurnsOn) {
+  const std::string ground =
+      "[[obstacle]]\nname = \"ground\"\nshape = \"plane\"\npoint = [0,0,0]\nnormal = [0,0,1]\non_hit = \"bounce\"\n";
+  const RunResult result =
+      run_text(scene("shape = \"sphere\"\nradius = 0.1\nmass = 1\nposition = [0,0,1]\nacceleration = [0,0,-9.8]\n"
+                     "angular_velocity = [1, 2, 3]",
+                     ground));
+  ASSERT_GE(result.impacts.size(), 1u);
+  EXPECT_NEAR(result.impacts[0].time, std::sqrt(2 * 0.9 / 9.8), 1e-12);
+  EXPECT_EQ(result.impacts[0].angular_velocity_before, Vector3(1, 2, 3));
+  EXPECT_EQ(result.impacts[0].angular_velocity_after, Vector3(1, 2, 3));
+  EXPECT_LE((to_rotation_vector(final_of(result, "b").orientation) -
+             std::remainder(std::sqrt(14.0), 2 * std::numbers::pi) * Vector3(1, 2, 3).normalized())
+                .norm(),
+            1e-11);
+}
+
+TEST(SolidScene, ImpactsOfOtherSolidsAreNotMissedInSilence) {
+  const std::string ground = "[[obstacle]]\nname = \"ground\"\nshape = \"plane\"\npoint = [0,0,0]\nnormal = [0,0,1]\n";
+  const std::string box = "shape = \"box\"\nsize = [1, 2, 2]\nangular_velocity = [1, 2, 3]\nvelocity = [0, 0, -1]\n";
+  // its corners are 1.5 away from the centre
+  const RunResult far = run_text(scene(box + "position = [0, 0, 2.6]", ground));
+  EXPECT_EQ(far.status, RunStatus::finished);
+  const RunResult near = run_text(scene(box + "position = [0, 0, 2.25]", ground));
+  EXPECT_EQ(near.status, RunStatus::failed);
+  EXPECT_NEAR(near.end_time, 0.75, 1e-12);
+  EXPECT_NE(near.failure.find("contact unresolved: box 'b'"), std::string::npos) << near.failure;
+}
+
+}  // namespace
+}  // namespace trajet
