@@ -23,7 +23,8 @@ demo: setup build ## set up, build, and fly the rifle shot; its files go to buil
 	@mkdir -p $(DEMO)
 	build/release/trajet run examples/notes/rifle_shot.toml --json $(DEMO)/rifle_shot.json --csv $(DEMO)/rifle_shot.csv
 
-docs: setup build ## remake the gallery of docs/: a picture of every example
+docs: setup build ## remake the gallery and the notes of docs/: outputs and pictures
+	@python3 -B tests/docs/readme.py refresh docs/notes/particles.md build/release/trajet
 	@scripts/setup browser
 	@node viewer/tools/gallery.mjs build/release/trajet $$(command -v chromium)
 

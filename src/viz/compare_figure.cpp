@@ -67,10 +67,10 @@ class CompareFigure {
         "set label 2 {} at screen 0.5, screen 0.936 center tc '#505050'\n"
         "set border lw 1.2 lc '#404040'\nset grid lc '#d8d8d8' lt 1 lw 0.8\n",
         quoted(comparison_.title.empty() ? comparison_.scene : comparison_.title), quoted(subtitle()));
-    add_motions({0.065, 0.50, 0.085, 0.80});
+    add_motions({0.065, 0.50, 0.11, 0.80});
     script_ += "unset label 1\nunset label 2\nset logscale xy\nset format xy '10^{%T}'\nset termoption enhanced\n";
     add_work({0.585, 0.815, 0.56, 0.86}, "law evaluations", true);
-    add_work({0.585, 0.815, 0.085, 0.42}, "time [ms]", false);
+    add_work({0.585, 0.815, 0.11, 0.42}, "time [ms]", false);
     script_ += "unset multiplot\n";
     return {std::move(script_), kSize};
   }

@@ -85,7 +85,7 @@ class RunFigure {
     const double top = 1.0 - 78.0 * pixel_y, height = (top - 16.0 * pixel_y) / static_cast<double>(rows);
     const double left = width * static_cast<double>(column);
     const double panel_top = top - height * static_cast<double>(row);
-    return {left + 88.0 * pixel_x, left + width - 22.0 * pixel_x, panel_top - height + 52.0 * pixel_y,
+    return {left + 104.0 * pixel_x, left + width - 22.0 * pixel_x, panel_top - height + 52.0 * pixel_y,
             panel_top - 22.0 * pixel_y};
   }
 

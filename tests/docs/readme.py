@@ -1,7 +1,9 @@
-"""Keeps README.md true.
+"""Keeps README.md and the pages of docs/notes/ true.
 
 readme.py extract README OUTPUT            writes the C++ example to OUTPUT
 readme.py check README EXAMPLE PROGRAM     runs the built example and the shell blocks, and compares their output
+readme.py page DOCUMENT PROGRAM            runs the shell blocks, compares their output, and looks for their figures
+readme.py refresh DOCUMENT PROGRAM         writes the outputs as they are now into the document, and the figures beside it
 
 A ```text block holds the output of the ```cpp or ```sh block before it. In it, `…` stands for any part of a line.
 Shell blocks run in a folder that has a copy of examples/ and PROGRAM as build/release/trajet. A ```sh block without
@@ -15,6 +17,7 @@ import subprocess
 import sys
 import tempfile
 
+FIGURE = re.compile(r"--plot (\S+)")
 BLOCK = re.compile(r"^```(\w+)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 
 
@@ -33,7 +36,7 @@ def compare(what, expected, actual):
     if re.fullmatch(pattern, actual.rstrip()):
         print(f"as documented: {what}")
         return True
-    print(f"README.md is wrong about the output of\n{what}\n--- documented\n{expected}--- actual\n{actual}")
+    print(f"the page is wrong about the output of\n{what}\n--- documented\n{expected}--- actual\n{actual}")
     return False
 
 
@@ -49,32 +52,94 @@ def check_setup(makefile, text):
     return good
 
 
-def check(readme, example, program):
-    root = pathlib.Path(readme).resolve().parent
-    results = []
-    with tempfile.TemporaryDirectory() as folder:
-        shutil.copytree(root / "examples", pathlib.Path(folder) / "examples")
-        release = pathlib.Path(folder) / "build/release"
+class Workplace:
+    """A folder with a copy of examples/ and the program as build/release/trajet, to run commands in."""
+
+    def __init__(self, root, program):
+        self.temporary = tempfile.TemporaryDirectory()
+        self.folder = pathlib.Path(self.temporary.name)
+        shutil.copytree(root / "examples", self.folder / "examples")
+        release = self.folder / "build/release"
         release.mkdir(parents=True)
         (release / "trajet").symlink_to(pathlib.Path(program).resolve())
 
-        def output(command):
-            return subprocess.run(command, cwd=folder, stdout=subprocess.PIPE, text=True, timeout=60).stdout
+    def __enter__(self):
+        return self
 
+    def __exit__(self, *_):
+        self.temporary.cleanup()
+
+    def output(self, command):
+        return subprocess.run(command, cwd=self.folder, stdout=subprocess.PIPE, text=True, timeout=60).stdout
+
+    def shell(self, text):
+        return self.output(["bash", "-c", text])
+
+
+def root_of(document):
+    """The project's folder: the one above the document that has examples/."""
+    return next(folder for folder in pathlib.Path(document).resolve().parents if (folder / "examples").is_dir())
+
+
+def check(readme, example, program):
+    root = root_of(readme)
+    results = []
+    with Workplace(root, program) as place:
         found = blocks(readme)
         for (language, text), (next_language, expected) in zip(found, found[1:] + [("", "")]):
             documented = next_language == "text"
             if language == "cpp":
-                results.append(documented and compare("the C++ example", expected, output([example])))
+                results.append(documented and compare("the C++ example", expected, place.output([example])))
             elif language == "sh" and documented:
-                results.append(compare(text, expected, output(["bash", "-c", text])))
+                results.append(compare(text, expected, place.shell(text)))
             elif language == "sh":
                 results.append(check_setup(root / "Makefile", text))
     return len(results) >= 3 and all(results)
 
 
+def page(document, program):
+    """Whether each command prints what the page says, and draws the figures that the page shows."""
+    folder = pathlib.Path(document).parent
+    results = []
+    with Workplace(root_of(document), program) as place:
+        found = blocks(document)
+        for (language, text), (next_language, expected) in zip(found, found[1:] + [("", "")]):
+            if language != "sh":
+                continue
+            actual = place.shell(text)
+            results.append(next_language != "text" or compare(text, expected, actual))
+            for figure in FIGURE.findall(text):
+                if not (place.folder / figure).is_file() or not (folder / figure).is_file():
+                    print(f"{document}: {figure} is not drawn, or not there")
+                    results.append(False)
+    return len(results) > 0 and all(results)
+
+
+def refresh(document, program):
+    path = pathlib.Path(document)
+    with Workplace(root_of(document), program) as place:
+
+        def renewed(match):
+            command, between, expected = match.groups()
+            actual = place.shell(command)
+            for figure in FIGURE.findall(command):
+                shutil.copy(place.folder / figure, path.parent / figure)
+            if expected is None:
+                return match[0]
+            kept = "…" in expected and compare(command, expected, actual)
+            return f"```sh\n{command}```{between}```text\n{expected if kept else actual}```"
+
+        text = re.sub(
+            r"^```sh\n(.*?)^```(?:(\s+)```text\n(.*?)^```)?", renewed, path.read_text(encoding="utf-8"), flags=re.M | re.S
+        )
+    path.write_text(text, encoding="utf-8")
+    return True
+
+
+MODES = {"check": check, "page": page, "refresh": refresh}
+
 if __name__ == "__main__":
     if sys.argv[1] == "extract":
         pathlib.Path(sys.argv[3]).write_text(cpp_example(sys.argv[2]), encoding="utf-8")
     else:
-        sys.exit(0 if check(*sys.argv[2:5]) else 1)
+        sys.exit(0 if MODES[sys.argv[1]](*sys.argv[2:]) else 1)
