@@ -48,7 +48,8 @@ TYPED_TEST(Convergence, ErrorAtTheEndFallsWithTheOrder) {
   expect_order<TypeParam>(Coupled::start_time(), Coupled::end_time());
 }
 
-TYPED_TEST(Convergence, SoItDoesBackward) { expect_order<TypeParam>(Coupled::end_time(), Coupled::start_time()); }
+// Not back to the start: there the leading term of rk4-3/8's error in the first component nearly vanishes.
+TYPED_TEST(Convergence, SoItDoesBackward) { expect_order<TypeParam>(Coupled::end_time(), 0.5); }
 
 // Long and short steps in turn, 3 : 2.
 template <class Method>
@@ -97,7 +98,7 @@ TYPED_TEST(Convergence, DenseOutputIsOfItsOrderWithinTheStep) {
 TYPED_TEST(Convergence, ErrorBoundFallsWithTheCompanionsOrderAndHolds) {
   using Tableau = typename TypeParam::Tableau;
   const double t0 = 1.0;
-  const double h = Tableau::kOrder < 3 ? 1e-3 : 1.0 / 64;
+  const double h = Tableau::kOrder < 4 ? 1e-3 : 1.0 / 64;
   const State bound = first_segment<TypeParam>(t0, h).error_bound();
   const State bound_half = first_segment<TypeParam>(t0, h / 2).error_bound();
   const State error = (first_segment<TypeParam>(t0, h).state(t0 + h) - Coupled::exact(t0 + h)).cwiseAbs();

@@ -16,7 +16,8 @@ TEST(Trees, AreAsManyAsCayleySays) {
 template <class Method>
 class OrderConditions : public testing::Test {};
 
-using Tableaus = testing::Types<EulerTableau, MidpointTableau, Rk4Tableau, Dopri5Tableau, Dop853Tableau>;
+using Tableaus = testing::Types<EulerTableau, MidpointTableau, HeunTableau, Rk4Tableau, Rk4ThreeEighthsTableau,
+                                Bs32Tableau, Dopri5Tableau, Dop853Tableau>;
 TYPED_TEST_SUITE(OrderConditions, Tableaus);
 
 TYPED_TEST(OrderConditions, MethodHasItsOrderAndNoMore) {
@@ -78,7 +79,8 @@ TYPED_TEST(OrderConditions, DenseOutputStartsWithTheRateAndEndsInTheState) {
 
 template <class Method>
 class SmoothDenseOutput : public testing::Test {};
-using SmoothTableaus = testing::Types<Rk4Tableau, Dopri5Tableau, Dop853Tableau>;
+using SmoothTableaus =
+    testing::Types<Rk4Tableau, Rk4ThreeEighthsTableau, Bs32Tableau, Dopri5Tableau, Dop853Tableau>;
 TYPED_TEST_SUITE(SmoothDenseOutput, SmoothTableaus);
 
 TYPED_TEST(SmoothDenseOutput, EndsWithTheRateAtTheEnd) {

@@ -17,8 +17,9 @@ struct FixedSteps {
   }
 };
 
-using FixedStepMethods = testing::Types<FixedSteps<EulerTableau>, FixedSteps<MidpointTableau>, FixedSteps<Rk4Tableau>,
-                                        FixedSteps<Dopri5Tableau>>;
+using FixedStepMethods = testing::Types<FixedSteps<EulerTableau>, FixedSteps<MidpointTableau>, FixedSteps<HeunTableau>,
+                                        FixedSteps<Rk4Tableau>, FixedSteps<Rk4ThreeEighthsTableau>,
+                                        FixedSteps<Bs32Tableau>, FixedSteps<Dopri5Tableau>>;
 
 /// Solves a named problem over its own time.
 template <class Method, class Problem>

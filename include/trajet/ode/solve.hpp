@@ -24,7 +24,10 @@ struct RungeKuttaMethod {
 /// The methods as types, for a choice at compile time: solve<Rk4>(law, …). The registry has the same for run time.
 using Euler = RungeKuttaMethod<EulerTableau>;
 using Midpoint = RungeKuttaMethod<MidpointTableau>;
+using Heun = RungeKuttaMethod<HeunTableau>;
 using Rk4 = RungeKuttaMethod<Rk4Tableau>;
+using Rk4ThreeEighths = RungeKuttaMethod<Rk4ThreeEighthsTableau>;
+using Bs32 = RungeKuttaMethod<Bs32Tableau>;
 using Dopri5 = RungeKuttaMethod<Dopri5Tableau>;
 using Dop853 = RungeKuttaMethod<Dop853Tableau>;
 struct Taylor {
@@ -58,6 +61,7 @@ auto solve(Law law, double t0, const Eigen::MatrixBase<Vector>& q0, double t_end
   };
   trajectory.status = integrate(stepper, t0, trajectory.start, t_end, options.max_steps, keep).status;
   trajectory.statistics = stepper.statistics();
+  if constexpr (requires { stepper.warnings(); }) trajectory.warnings = stepper.warnings();
   return trajectory;
 }
 

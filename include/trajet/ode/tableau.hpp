@@ -103,6 +103,22 @@ struct MidpointTableau {
   };
 };
 
+/// Heun's method of order 2: the mean of the rates at the start and at Euler's guess of the end. Dense output: the
+/// parabola through q0, g0 and q1. The companion takes the rate at the end in place of that at the guess.
+struct HeunTableau {
+  static constexpr int kOrder = 2;
+  static constexpr int kCompanionOrder = 2;
+  static constexpr int kDenseOrder = 2;
+  static constexpr bool kErrorControlled = false;
+  static constexpr Tableau<3, 2> kTableau = {
+      .c = {0, 1, 1},
+      .a = {{{}, {1}, {{{1, 2}, {1, 2}}}}},
+      .b = {{{1, 2}, {1, 2}, 0}},
+      .companion = {{{1, 2}, 0, {1, 2}}},
+      .dense = {{{{1, {-1, 2}}}, {{0, {1, 2}}}, {{0, 0}}}},
+  };
+};
+
 /// The classical method of Kutta (1901). Dense output: the cubic through q0, g0, q1 and g1.
 ///
 /// The companion takes the rate at the end in place of the fourth stage: it meets every condition of order 3, and of
@@ -118,6 +134,45 @@ struct Rk4Tableau {
       .b = {{{1, 6}, {1, 3}, {1, 3}, {1, 6}, 0}},
       .companion = {{{1, 6}, {1, 3}, {1, 3}, 0, {1, 6}}},
       .dense = {{{{1, {-3, 2}, {2, 3}}}, {{0, 1, {-2, 3}}}, {{0, 1, {-2, 3}}}, {{0, {1, 2}, {-1, 3}}}, {{0, -1, 1}}}},
+  };
+};
+
+/// Kutta's second method of order 4, the 3/8 rule: smaller error terms than the classical one at the price of denser
+/// weights, [HairerNorsettWanner1993] II.1 p. 138. Dense output: the cubic through q0, g0, q1 and g1.
+///
+/// The companion is the member of order 3 of the weights on these stages and the rate at the end that does without the
+/// fourth stage.
+struct Rk4ThreeEighthsTableau {
+  static constexpr int kOrder = 4;
+  static constexpr int kCompanionOrder = 3;
+  static constexpr int kDenseOrder = 3;
+  static constexpr bool kErrorControlled = false;
+  static constexpr Tableau<5, 3> kTableau = {
+      .c = {{0, {1, 3}, {2, 3}, 1, 1}},
+      .a = {{{}, {{{1, 3}}}, {{{-1, 3}, 1}}, {1, -1, 1}, {{{1, 8}, {3, 8}, {3, 8}, {1, 8}}}}},
+      .b = {{{1, 8}, {3, 8}, {3, 8}, {1, 8}, 0}},
+      .companion = {{{1, 12}, {1, 2}, {1, 4}, 0, {1, 6}}},
+      .dense = {{{{1, {-13, 8}, {3, 4}}},
+                 {{0, {9, 8}, {-3, 4}}},
+                 {{0, {9, 8}, {-3, 4}}},
+                 {{0, {3, 8}, {-1, 4}}},
+                 {{0, -1, 1}}}},
+  };
+};
+
+/// Bogacki and Shampine's pair of orders 3 and 2 with four stages, [BogackiShampine1989]. Dense output: the cubic
+/// through q0, g0, q1 and g1.
+struct Bs32Tableau {
+  static constexpr int kOrder = 3;
+  static constexpr int kCompanionOrder = 2;
+  static constexpr int kDenseOrder = 3;
+  static constexpr bool kErrorControlled = true;
+  static constexpr Tableau<4, 3> kTableau = {
+      .c = {{0, {1, 2}, {3, 4}, 1}},
+      .a = {{{}, {{{1, 2}}}, {{0, {3, 4}}}, {{{2, 9}, {1, 3}, {4, 9}}}}},
+      .b = {{{2, 9}, {1, 3}, {4, 9}, 0}},
+      .companion = {{{7, 24}, {1, 4}, {1, 3}, {1, 8}}},
+      .dense = {{{{1, {-4, 3}, {5, 9}}}, {{0, 1, {-2, 3}}}, {{0, {4, 3}, {-8, 9}}}, {{0, -1, 1}}}},
   };
 };
 
