@@ -24,6 +24,9 @@ void add_scene_options(CLI::App& command, RunArguments& arguments) {
   command.add_option("--orientation", overrides.orientation, "way of carrying orientations, see 'trajet methods'")
       ->type_name("NAME");
   command.add_option("--step", overrides.step, "step of a fixed-step method, \"10 ms\"")->type_name("DT");
+  command.add_option("--order", overrides.order, "order of a series method")
+      ->type_name("N")
+      ->check(CLI::PositiveNumber);
   command.add_option("--rtol", overrides.rtol, "relative tolerance")->type_name("X");
   command.add_option("--atol", overrides.atol, "absolute tolerance")->type_name("X");
   command.add_option("--end", overrides.end, "end time, \"5 s\"")->type_name("T");

@@ -7,15 +7,31 @@
 
 namespace trajet {
 
+namespace {
+
+const char* step_control(StepControl control) {
+  switch (control) {
+    case StepControl::fixed:
+      return "given";
+    case StepControl::adaptive:
+      return "adaptive";
+    case StepControl::subdivided:
+      return "divided";
+  }
+  return "";
+}
+
+}  // namespace
+
 int methods_command() {
   const auto order = [](int value) { return value == 0 ? std::string("tolerance") : fmt::format("{}", value); };
-  constexpr const char* kRow = "{:<13} {:<16} {:<10} {:<10} {:<9} {}\n";
+  constexpr const char* kRow = "{:<21} {:<22} {:<10} {:<10} {:<10} {}\n";
   std::string text = fmt::format(kRow, "name", "aliases", "order", "dense", "step", "known as");
   for (const MethodInfo& method : methods()) {
-    const char* control = method.control == StepControl::fixed ? "given" : "adaptive";
+    const char* control = step_control(method.control);
     text += fmt::format(kRow, method.name, fmt::format("{}", fmt::join(method.aliases, ", ")), order(method.order),
                         order(method.dense_order), control, method.known_as);
-    text += fmt::format("{:<13} {}\n", "", method.summary);
+    text += fmt::format("{:<21} {}\n", "", method.summary);
   }
   constexpr const char* kOrientationRow = "{:<22} {:<18} {:<10} {}\n";
   text += "\n" + fmt::format(kOrientationRow, "orientation", "aliases", "numbers", "known as");

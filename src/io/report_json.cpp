@@ -92,6 +92,7 @@ std::string report_json(const RunResult& result) {
                         {"rejected_steps", result.statistics.rejected_steps},
                         {"law_evaluations", result.statistics.law_evaluations},
                         {"wall_seconds", result.statistics.wall_seconds}};
+  if (result.statistics.proposed_step > 0.0) json["statistics"]["proposed_step"] = result.statistics.proposed_step;
   return detail::json_text(json);
 }
 

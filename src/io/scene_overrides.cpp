@@ -60,6 +60,7 @@ void apply(const SceneOverrides& overrides, Scene& scene) {
     scene.method.orientation = info->way;
     scene.method.orientation_where = {"--orientation"};
   }
+  if (overrides.order) scene.method.order = *overrides.order;
   if (overrides.method) {
     scene.method.name = *overrides.method;
     scene.method.where = {"--method"};

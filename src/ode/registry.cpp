@@ -1,19 +1,24 @@
 #include "trajet/ode/registry.hpp"
 
 #include <algorithm>
-#include <array>
 #include <utility>
+#include <vector>
 
 #include "trajet/ode/cvode.hpp"
+#include "trajet/ode/difference.hpp"
 #include "trajet/ode/gauss.hpp"
 #include "trajet/ode/implicit_stepper.hpp"
+#include "trajet/ode/quadrature.hpp"
+#include "trajet/ode/rk4_doubling.hpp"
 #include "trajet/ode/rosenbrock.hpp"
 #include "trajet/ode/runge_kutta.hpp"
+#include "trajet/ode/series_steps.hpp"
 #include "trajet/ode/system_rate.hpp"
 #include "trajet/ode/tableau_dop853.hpp"
 #include "trajet/ode/taylor.hpp"
 #include "trajet/ode/tr_bdf2.hpp"
 #include "trajet/ode/trapezoid.hpp"
+#include "trajet/ode/velocity_verlet.hpp"
 
 namespace trajet {
 namespace {
@@ -34,6 +39,10 @@ class WrappedStepper final : public AnyStepper {
     constexpr bool kCanAmend = requires { stepper_.amend(q); };
     if constexpr (kCanAmend) stepper_.amend(q);
     return kCanAmend;
+  }
+  std::vector<std::string> warnings() const override {
+    if constexpr (requires { stepper_.warnings(); }) return stepper_.warnings();
+    return {};
   }
 
  private:
@@ -70,6 +79,35 @@ std::unique_ptr<AnyStepper> make_taylor(System& system, const StepOptions& optio
   return std::make_unique<WrappedStepper<S>>(S(SystemExpansion(system), options));
 }
 
+std::unique_ptr<AnyStepper> make_series(System& system, const StepOptions& options) {
+  using S = SeriesStepper<SystemExpansion>;
+  return std::make_unique<WrappedStepper<S>>(S(SystemExpansion(system), options));
+}
+
+std::unique_ptr<AnyStepper> make_doubling(System& system, const StepOptions& options) {
+  using S = Rk4DoublingStepper<SystemRate, Eigen::Dynamic>;
+  return std::make_unique<WrappedStepper<S>>(S(SystemRate(system), options));
+}
+
+std::unique_ptr<AnyStepper> make_verlet(System& system, const StepOptions& options) {
+  using S = VelocityVerletStepper<SystemRate, Eigen::Dynamic>;
+  return std::make_unique<WrappedStepper<S>>(S(SystemRate(system), system.structure(), options));
+}
+
+template <PositionFormula Formula>
+std::unique_ptr<AnyStepper> make_difference(System& system, const StepOptions& options) {
+  using S = DifferenceStepper<SystemRate, Eigen::Dynamic>;
+  return std::make_unique<WrappedStepper<S>>(S(SystemRate(system), system.structure(), Formula, options));
+}
+
+std::unique_ptr<AnyStepper> make_quadrature(System& system, const StepOptions& options) {
+  using S = QuadratureStepper<SystemRate, Eigen::Dynamic>;
+  return std::make_unique<WrappedStepper<S>>(S(SystemRate(system), system.structure(), options));
+}
+
+std::optional<Unsuitable> unless_of_time(const Structure& structure) { return find_levels(structure).unsuitable; }
+std::optional<Unsuitable> unless_of_two_halves(const Structure& structure) { return find_parts(structure).unsuitable; }
+
 using Aliases = std::vector<std::string_view>;
 
 template <class Method>
@@ -96,17 +134,25 @@ MethodInfo multistep(std::string_view name, Aliases aliases, std::string_view kn
 }
 #endif
 
-MethodInfo series(std::string_view name, Aliases aliases, std::string_view known_as, std::string_view summary) {
-  return {name, std::move(aliases), 0, 0, StepControl::adaptive, known_as, summary, make_taylor};
+/// A line of the table of any family.
+MethodInfo row(std::string_view name, Aliases aliases, int order, int dense_order, StepControl control,
+               std::string_view known_as, std::string_view summary, decltype(MethodInfo::make) make, int max_order = 0,
+               decltype(MethodInfo::find_unsuitable) find_unsuitable = nullptr) {
+  return {name, std::move(aliases), order, dense_order, control, known_as, summary, make, max_order, find_unsuitable};
 }
 
 }  // namespace
 
 std::span<const MethodInfo> methods() {
-  static const std::array table = {
-      runge_kutta<EulerTableau>("euler", {}, "course: Euler, SEDEuler0 (F32)", "the rate at the start of the step"),
+  constexpr int kSeriesOrder = SeriesStepper<SystemExpansion>::kDefaultOrder;
+  static const std::vector<MethodInfo> table = {
+      runge_kutta<EulerTableau>("euler", {"SEDEuler0"}, "course: Euler (F32)", "the rate at the start of the step"),
       runge_kutta<MidpointTableau>("midpoint", {"rk2"}, "course: Runge-Kutta 2 (F29)", "the rate at its middle"),
-      runge_kutta<Rk4Tableau>("rk4", {}, "course: Runge-Kutta 4, SEDRK4t0 (F38)", "Kutta's classical method"),
+      runge_kutta<HeunTableau>("heun", {}, "course: Runge-Kutta 2 (F29)", "the mean of the rates at its ends"),
+      runge_kutta<Rk4Tableau>("rk4", {"SEDRK4t0"}, "course: Runge-Kutta 4 (F38)", "Kutta's classical method"),
+      runge_kutta<Rk4ThreeEighthsTableau>("rk4-3/8", {}, "Kutta's 3/8 rule",
+                                          "smaller errors than the classical method"),
+      runge_kutta<Bs32Tableau>("bs32", {"ode23"}, "MATLAB: ode23 (F59)", "Bogacki and Shampine's pair 3(2)"),
       runge_kutta<Dopri5Tableau>("dopri5", {"ode45"}, "MATLAB: ode45 (F59)", "Dormand and Prince's pair 5(4)"),
       runge_kutta<Dop853Tableau>("dop853", {}, "", "Dormand and Prince's method 8(5,3)"),
       gauss("gauss6", {}, "", "Gauss collocation, symplectic: long runs keep their energy"),
@@ -122,7 +168,23 @@ std::span<const MethodInfo> methods() {
                                  "stiff: trapezoidal rule, no damping"),
       implicit<TrBdf2Formula>("tr-bdf2", {"ode23tb"}, "MATLAB: ode23tb (F59)", "stiff: trapezoidal rule, then BDF2"),
       implicit<RosenbrockMethod<Rodas5pTableau>>("rodas5p", {}, "", "stiff: Steinebach's Rosenbrock pair 5(4)"),
-      series("taylor", {"series"}, "course: Taylor series (F10)", "exact derivatives; order chosen from the tolerance"),
+      row("rk4-doubling", {"SEDRK4c"}, 5, 4, StepControl::subdivided,
+          "course: Runge-Kutta with error control (F50-F57)", "steps halved until they agree, then extrapolated",
+          make_doubling),
+      row("velocity-verlet", {"verlet", "leapfrog"}, 2, 2, StepControl::fixed, "Störmer and Verlet",
+          "symplectic, for dr/dt = v, dv/dt = a(r, t)", make_verlet, 0, unless_of_two_halves),
+      row("difference-linear", {}, 2, 2, StepControl::fixed, "course: first position formula (F12-F15)",
+          "laws of t alone: a(t), then v(t) linear within the step", make_difference<PositionFormula::linear>, 0,
+          unless_of_time),
+      row("difference-quadratic", {}, 2, 2, StepControl::fixed, "course: second position formula (F16-F17)",
+          "laws of t alone: a(t) linear, v(t) quadratic within the step", make_difference<PositionFormula::quadratic>,
+          0, unless_of_time),
+      row("quadrature", {}, 0, 0, StepControl::adaptive, "course: direct integration (F8)",
+          "laws of t alone: Gauss and Kronrod's rule", make_quadrature, 0, unless_of_time),
+      row("series", {}, kSeriesOrder, kSeriesOrder, StepControl::fixed, "course: series of a chosen order (F10-F11)",
+          "exact derivatives; [method] order", make_series, SeriesStepper<SystemExpansion>::kMaxOrder),
+      row("taylor", {}, 0, 0, StepControl::adaptive, "course: Taylor series (F10)",
+          "exact derivatives; order chosen from the tolerance", make_taylor, kMaxTaylorOrder),
   };
   return table;
 }

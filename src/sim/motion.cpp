@@ -1,5 +1,7 @@
 #include "motion.hpp"
 
+#include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include "trajet/event/path.hpp"
@@ -21,7 +23,10 @@ Motion::Motion(const World& world, int group, RunObserver& observer)
 }
 
 void Motion::use_law() {
-  if (stepper_) finished_steppers_ = statistics();
+  if (stepper_) {
+    finished_steppers_ = statistics();
+    finished_warnings_ = warnings();
+  }
   Program law = group().law;
   for (const int body : group().bodies) {
     const int offset = world_.bodies[static_cast<std::size_t>(body)].offset;
@@ -214,7 +219,14 @@ StepStatistics Motion::statistics() const {
   sum.steps += stepper_->statistics().steps;
   sum.rejected_steps += stepper_->statistics().rejected_steps;
   sum.law_evaluations += stepper_->statistics().law_evaluations;
+  sum.proposed_step = stepper_->statistics().proposed_step;
   return sum;
+}
+
+std::vector<std::string> Motion::warnings() const {
+  std::vector<std::string> all = finished_warnings_;
+  std::ranges::copy(stepper_->warnings(), std::back_inserter(all));
+  return all;
 }
 
 }  // namespace trajet

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "event_watch.hpp"
@@ -83,6 +84,8 @@ class Motion {
   Vector3 free_acceleration(int offset, double t, const Eigen::VectorXd& q) const;
   bool finished() const { return segment_.t1() == world_.end; }
   StepStatistics statistics() const;
+  /// What the method has to say of its work.
+  std::vector<std::string> warnings() const;
 
  private:
   struct Watch {
@@ -115,6 +118,7 @@ class Motion {
   std::unique_ptr<AnyStepper> stepper_;
   Rotations rotations_;
   StepStatistics finished_steppers_;
+  std::vector<std::string> finished_warnings_;
   Segment<> segment_;
   Eigen::VectorXd end_state_;
   std::vector<Pair> pairs_;

@@ -65,13 +65,17 @@ RunResult Simulation::run() {
     result_.statistics.steps += statistics.steps;
     result_.statistics.rejected_steps += statistics.rejected_steps;
     result_.statistics.law_evaluations += statistics.law_evaluations;
+    if (statistics.proposed_step > 0.0)  // of several motions, the smallest
+      result_.statistics.proposed_step = result_.statistics.proposed_step > 0.0
+                                             ? std::min(result_.statistics.proposed_step, statistics.proposed_step)
+                                             : statistics.proposed_step;
+    for (const std::string& warning : each->warnings())
+      if (std::ranges::find(result_.warnings, warning) == result_.warnings.end()) result_.warnings.push_back(warning);
   }
   return std::move(result_);
 }
 
-void Simulation::enqueue(int index) {
-  queue_.push({direction_ * (motion(index).next().time - world_.start), index});
-}
+void Simulation::enqueue(int index) { queue_.push({direction_ * (motion(index).next().time - world_.start), index}); }
 
 /// The next Segment of a motion, behind all that was handled.
 void Simulation::advance(int index) {
@@ -143,7 +147,7 @@ void Simulation::handle_event(int index, const Incident& incident) {
 
 double Simulation::mass(const World::Body& body, double t, const Eigen::VectorXd& q) const {
   double value = 1.0;
-  if (body.mass) Evaluator<double>(*body.mass)(t, q.data(), &value);
+  if (body.mass) Evaluator<double> (*body.mass)(t, q.data(), &value);
   return value;
 }
 
@@ -171,14 +175,15 @@ void Simulation::record(const Impact& impact) {
     const double apart = std::abs(impact.time - last.time);
     impacts_at_once_ = apart == 0.0 ? impacts_at_once_ + 1 : 0;
     const bool is_tie = impact.with != last.with && apart <= impact.time_error_bound + last.time_error_bound;
-    if (is_tie && impact.kind == ImpactKind::hit && last.kind == ImpactKind::hit) warn_of_tie(last, impact.body, impact.with);
+    if (is_tie && impact.kind == ImpactKind::hit && last.kind == ImpactKind::hit)
+      warn_of_tie(last, impact.body, impact.with);
   }
   result_.impacts.push_back(impact);
 }
 
 void Simulation::warn_of_tie(const Impact& impact, const std::string& body, const std::string& with) {
-  const std::string text = "impacts of '" + impact.body + "' with '" + impact.with + "' and of '" + body + "' with '" + with +
-                           "' are closer in time than their error bounds: which is first is decided by rounding";
+  const std::string text = "impacts of '" + impact.body + "' with '" + impact.with + "' and of '" + body + "' with '" +
+                           with + "' are closer in time than their error bounds: which is first is decided by rounding";
   if (std::ranges::find(result_.warnings, text) == result_.warnings.end()) result_.warnings.push_back(text);
 }
 

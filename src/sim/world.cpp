@@ -6,16 +6,15 @@
 #include <string_view>
 
 #include "partition.hpp"
+#include "scene_method.hpp"
 #include "scene_numbers.hpp"
 #include "scene_symbols.hpp"
 #include "solid.hpp"
-#include "trajet/law/did_you_mean.hpp"
 #include "trajet/law/program_builder.hpp"
 
 namespace trajet {
 namespace {
 
-constexpr double kDefaultTolerance = 1e-12;
 constexpr double kDefaultSampleCount = 200.0;
 
 /// Builds a World from a Scene: numbers first, then who depends on whom, then one program per group.
@@ -33,13 +32,15 @@ class WorldBuilder {
     world_.parameters = parameters_.values;
     check_names();
     set_time();
-    set_method();
+    set_method(scene_.method, numbers_, world_);
     for (const ObstacleDefinition& obstacle : scene_.obstacles)
-      world_.obstacles.push_back({obstacle.name, numbers_.shape(obstacle), obstacle.on_hit,
-                                  numbers_.within(obstacle.restitution, 0.0, 1.0, "restitution of obstacle '" + obstacle.name + "'")});
+      world_.obstacles.push_back(
+          {obstacle.name, numbers_.shape(obstacle), obstacle.on_hit,
+           numbers_.within(obstacle.restitution, 0.0, 1.0, "restitution of obstacle '" + obstacle.name + "'")});
     find_dependencies();
     place_in_groups();
     for (std::size_t g = 0; g < world_.groups.size(); ++g) compile_group(static_cast<int>(g));
+    check_that_method_suits(scene_, world_);
     for (const NamedExpression& closed_form : scene_.exact) compile_exact(closed_form);
     return std::move(world_);
   }
@@ -74,41 +75,6 @@ class WorldBuilder {
       throw InputError(time.end->where(), "the end is before the start: impacts have no meaning backward in time");
     world_.sample = time.sample ? numbers_.positive(*time.sample, "sample spacing")
                                 : (duration > 0.0 ? duration / kDefaultSampleCount : 1.0);
-  }
-
-  void set_method() {
-    const MethodOptions& method = scene_.method;
-    world_.method = find_method(method.name);
-    if (world_.method == nullptr) {
-      std::vector<std::string_view> known;
-      for (const MethodInfo& info : methods()) {
-        known.push_back(info.name);
-        known.insert(known.end(), info.aliases.begin(), info.aliases.end());
-      }
-      throw InputError(method.where, "unknown method '" + method.name + "'" + did_you_mean(method.name, known));
-    }
-    StepOptions& options = world_.step_options;
-    options.rtol = method.rtol ? numbers_.not_negative(*method.rtol, "rtol") : kDefaultTolerance;
-    options.atol = method.atol ? numbers_.not_negative(*method.atol, "atol") : kDefaultTolerance;
-    if (options.rtol == 0.0 && options.atol == 0.0)
-      throw InputError(method.rtol->where(), "rtol and atol must not both be zero");
-    if (method.step) options.step = numbers_.positive(*method.step, "step");
-    options.order = method.order;
-    if (!method.steps.empty()) set_unequal_steps();
-    if (world_.method->control == StepControl::fixed && !options.step && options.nodes.empty())
-      throw InputError(method.where, "method '" + std::string(world_.method->name) + "' takes fixed steps: give [method] step");
-    if (method.max_steps <= 0) throw InputError(method.where, "max_steps must be positive");
-    world_.max_steps = method.max_steps;
-    world_.locate = method.locate;
-  }
-
-  void set_unequal_steps() {
-    const double direction = world_.end < world_.start ? -1.0 : 1.0;
-    double t = world_.start;
-    for (const Expression& step : scene_.method.steps) {
-      t += direction * numbers_.positive(step, "step");
-      world_.step_options.nodes.push_back(t);
-    }
   }
 
   /// Joins `member` with all bodies and states that a formula of its own names.
@@ -154,7 +120,8 @@ class WorldBuilder {
 
   /// The group of a member, made at its first sight; groups come in the order of their first members.
   int group_of(int member) {
-    const auto [place, is_new] = group_of_root_.try_emplace(partition_.find(member), static_cast<int>(world_.groups.size()));
+    const auto [place, is_new] =
+        group_of_root_.try_emplace(partition_.find(member), static_cast<int>(world_.groups.size()));
     if (is_new) world_.groups.emplace_back();
     return place->second;
   }
@@ -182,7 +149,8 @@ class WorldBuilder {
       const StateDefinition& definition = scene_.states[i];
       const int index = group_of(state_member(i));
       const double value = numbers_.scalar(definition.value, "value of state '" + definition.name + "'");
-      world_.states.push_back({definition.name, index, append(group(index).start, Eigen::VectorXd::Constant(1, value))});
+      world_.states.push_back(
+          {definition.name, index, append(group(index).start, Eigen::VectorXd::Constant(1, value))});
     }
     world_.events.resize(scene_.events.size());
     for (std::size_t i = 0; i < scene_.events.size(); ++i) {
@@ -321,7 +289,8 @@ class WorldBuilder {
           throw InputError(assignment.where, "body '" + body.name + "' does not turn: give it an `angular_velocity`, which may be 0");
       }
     }
-    throw InputError(assignment.where, "'" + assignment.name + "' is neither an extra state nor a part of a body such as ball.v");
+    throw InputError(assignment.where,
+                     "'" + assignment.name + "' is neither an extra state nor a part of a body such as ball.v");
   }
 
   const Scene& scene_;

@@ -13,6 +13,7 @@ struct SceneOverrides {
   std::vector<std::string> parameters;  ///< NAME=VALUE each
   std::optional<std::string> method;
   std::optional<std::string> step;
+  std::optional<int> order;
   std::optional<std::string> rtol;
   std::optional<std::string> atol;
   std::optional<std::string> end;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -12,8 +13,9 @@
 namespace trajet {
 
 enum class StepControl {
-  fixed,     ///< the user gives the step
-  adaptive,  ///< the method chooses steps that meet rtol and atol
+  fixed,       ///< the user gives the step
+  adaptive,    ///< the method chooses steps that meet rtol and atol
+  subdivided,  ///< the user gives the step, and the method divides it until rtol is met
 };
 
 /// One integration method as users see it. A line of the table in src/ode/registry.cpp adds one.
@@ -26,6 +28,11 @@ struct MethodInfo {
   std::string_view known_as;  ///< what the course or MATLAB calls it, with the feature's number
   std::string_view summary;   ///< one line
   std::unique_ptr<AnyStepper> (*make)(System& system, const StepOptions& options);
+  int max_order = 0;  ///< what StepOptions::order may be at most; 0: the method's order cannot be chosen
+  /// Why the method cannot solve systems of that structure; nullptr: it can solve all.
+  std::optional<Unsuitable> (*find_unsuitable)(const Structure& structure) = nullptr;
+
+  bool needs_step() const { return control != StepControl::adaptive; }
 };
 
 /// All methods, in the order in which `trajet methods` prints them.

@@ -4,6 +4,7 @@
 #include <concepts>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "trajet/ode/segment.hpp"
@@ -19,30 +20,33 @@ enum class StepStatus {
 
 /// What the work has cost so far.
 struct StepStatistics {
-  long steps = 0;           ///< accepted steps
-  long rejected_steps = 0;  ///< attempts that missed the tolerance
-  long law_evaluations = 0; ///< evaluations of the law; an expansion into a power series counts once
+  long steps = 0;              ///< accepted steps
+  long rejected_steps = 0;     ///< attempts that missed the tolerance
+  long law_evaluations = 0;    ///< evaluations of the law; an expansion into a power series counts once
+  double proposed_step = 0.0;  ///< s; the step that rk4-doubling would choose next, 0: the method says nothing
 };
 
 /// What a user may choose of a method. Each method reads what concerns it.
 struct StepOptions {
-  double rtol = 1e-12;         ///< tolerance relative to each component, error-controlled methods
-  double atol = 1e-12;         ///< absolute tolerance in each component's unit, error-controlled methods
-  std::optional<double> step{};  ///< fixed-step methods: the step (s, > 0), required unless `nodes`; others: the first step
-  std::vector<double> nodes{};   ///< fixed-step methods: the times of the step ends, for unequal steps
-  int order = 0;               ///< series methods: the order; 0 lets the method choose
+  double rtol = 1e-12;  ///< tolerance relative to each component, error-controlled methods
+  double atol = 1e-12;  ///< absolute tolerance in each component's unit, error-controlled methods
+  std::optional<double>
+      step{};  ///< fixed-step methods: the step (s, > 0), required unless `nodes`; others: the first step
+  std::vector<double> nodes{};  ///< fixed-step methods: the times of the step ends, for unequal steps
+  int order = 0;                ///< series methods: the order; 0 lets the method choose
 };
 
 /// A method at work on one system: it holds the current time and state and moves them on, one accepted step at a time.
 ///
 /// - `start(t, q)` begins, or begins anew after the state was changed from outside (a bounce).
-/// - `advance(t_limit)` makes one accepted step towards `t_limit`, in either direction of time, never beyond it, and lands
-///   on it exactly: `time() == t_limit`.
+/// - `advance(t_limit)` makes one accepted step towards `t_limit`, in either direction of time, never beyond it, and
+///   lands on it exactly: `time() == t_limit`.
+/// - `warnings()`, which not every method has, says in sentences what a user should know.
 /// - `fill_segment(segment)` writes the last step as a Segment. It costs only where it is called.
 /// - `amend(q)`, which a method may lack: see AnyStepper.
 template <class S>
-concept Stepper =
-    requires(S& stepper, const S& fixed, double t, const typename S::State& q, Segment<S::kDimension>& segment) {
+concept Stepper = requires(S& stepper, const S& fixed, double t, const typename S::State& q,
+                           Segment<S::kDimension>& segment) {
   stepper.start(t, q);
   { stepper.advance(t) } -> std::same_as<StepStatus>;
   stepper.fill_segment(segment);
@@ -68,6 +72,8 @@ class AnyStepper {
   /// length again: the steps go on as they would have. False, and nothing is done, where the method would lose its memory
   /// of earlier steps. The last step's Segment is gone.
   virtual bool amend(const State&) { return false; }
+  /// What a user should know of the work so far: sentences, each once.
+  virtual std::vector<std::string> warnings() const = 0;
 };
 
 }  // namespace trajet

@@ -2,6 +2,8 @@
 
 #include <Eigen/Core>
 
+#include "trajet/ode/structure.hpp"
+
 namespace trajet {
 
 /// The problem dq/dt = g(q, t) as a run-time object: what a compiled scene hands to the integrators.
@@ -32,6 +34,9 @@ class System {
 
   /// The degree in time of every solution if the law makes it a polynomial whatever the state, else a negative number.
   virtual int polynomial_degree() const = 0;
+
+  /// Which components the rate of each component depends on.
+  virtual Structure structure() const = 0;
 };
 
 }  // namespace trajet

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <stdexcept>
+#include <string>
 #include <vector>
 
 #include "trajet/ode/integrate.hpp"
@@ -20,6 +21,7 @@ struct Trajectory {
   std::vector<Segment<Dim>> segments;
   IntegrationStatus status = IntegrationStatus::finished;
   StepStatistics statistics;
+  std::vector<std::string> warnings;
 
   /// How far the solution goes; the end asked for if `status` is `finished`.
   double end_time() const { return segments.empty() ? start_time : segments.back().t1(); }

@@ -28,6 +28,14 @@ class ProgramSystem : public System {
   }
   double duration_until_branch(double duration) override { return expansion_.duration_until_branch(duration); }
   int polynomial_degree() const override { return trajet::polynomial_degree(expansion_.program()); }
+  Structure structure() const override { return structure_of(expansion_.program()); }
+
+  /// The structure of a compiled law.
+  static Structure structure_of(const Program& program) {
+    Evaluator<Dependence> evaluator(program);
+    const auto law = [&evaluator](const Dependence& t, const auto& q, auto& dq) { evaluator(t, q.data(), dq.data()); };
+    return trajet::structure_of(law, static_cast<int>(program.outputs.size()));
+  }
 
  private:
   ProgramExpansion expansion_;

@@ -1,0 +1,89 @@
+#include "scene_method.hpp"
+
+#include <algorithm>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "trajet/law/did_you_mean.hpp"
+#include "trajet/sim/program_system.hpp"
+
+namespace trajet {
+namespace {
+
+constexpr double kDefaultTolerance = 1e-12;
+
+const MethodInfo* find_scene_method(const MethodOptions& method) {
+  if (const MethodInfo* found = find_method(method.name)) return found;
+  std::vector<std::string_view> known;
+  for (const MethodInfo& info : methods()) {
+    known.push_back(info.name);
+    known.insert(known.end(), info.aliases.begin(), info.aliases.end());
+  }
+  throw InputError(method.where, "unknown method '" + method.name + "'" + did_you_mean(method.name, known));
+}
+
+void check_order(const MethodOptions& method, const MethodInfo& info) {
+  if (method.order <= info.max_order) return;
+  const std::string name = "method '" + std::string(info.name) + "'";
+  throw InputError(method.where, info.max_order == 0 ? name + " has an order of its own: [method] order does not go with it"
+                                                     : name + " takes an order of at most " + std::to_string(info.max_order));
+}
+
+/// The formula behind a component of a group's state, in words and as a place in the scene.
+struct ComponentOrigin {
+  std::string text;
+  SourceLocation where;
+};
+
+ComponentOrigin origin(const Scene& scene, const World& world, int group, int component) {
+  for (std::size_t i = 0; i < world.states.size(); ++i) {
+    if (world.states[i].group == group && world.states[i].offset == component)
+      return {"rate of state '" + world.states[i].name + "'", scene.states[i].rate.where()};
+  }
+  const auto owns = [&](const World::Body& body) {
+    return body.group == group && body.offset <= component && component < body.offset + World::kBodySize;
+  };
+  const auto body = std::ranges::find_if(world.bodies, owns);
+  const BodyDefinition& definition = scene.bodies[static_cast<std::size_t>(body - world.bodies.begin())];
+  const std::string of_body = " of body '" + body->name + "'";
+  if (component < body->offset + 3)
+    return {"rate of the position" + of_body, definition.position_rate ? definition.position_rate->where() : definition.where};
+  if (definition.force) return {"force" + of_body, definition.force->where()};
+  return {"acceleration" + of_body, definition.acceleration ? definition.acceleration->where() : definition.where};
+}
+
+}  // namespace
+
+void set_method(const MethodOptions& method, const SceneNumbers& numbers, World& world) {
+  world.method = find_scene_method(method);
+  check_order(method, *world.method);
+  StepOptions& options = world.step_options;
+  options.rtol = method.rtol ? numbers.not_negative(*method.rtol, "rtol") : kDefaultTolerance;
+  options.atol = method.atol ? numbers.not_negative(*method.atol, "atol") : kDefaultTolerance;
+  if (options.rtol == 0.0 && options.atol == 0.0)
+    throw InputError(method.rtol->where(), "rtol and atol must not both be zero");
+  if (method.step) options.step = numbers.positive(*method.step, "step");
+  options.order = method.order;
+  const double direction = world.end < world.start ? -1.0 : 1.0;
+  double t = world.start;
+  for (const Expression& step : method.steps) options.nodes.push_back(t += direction * numbers.positive(step, "step"));
+  if (world.method->needs_step() && !options.step && options.nodes.empty())
+    throw InputError(method.where, "method '" + std::string(world.method->name) + "' takes fixed steps: give [method] step");
+  if (method.max_steps <= 0) throw InputError(method.where, "max_steps must be positive");
+  world.max_steps = method.max_steps;
+  world.locate = method.locate;
+}
+
+void check_that_method_suits(const Scene& scene, const World& world) {
+  if (world.method->find_unsuitable == nullptr) return;
+  for (std::size_t g = 0; g < world.groups.size(); ++g) {
+    const auto unsuitable = world.method->find_unsuitable(ProgramSystem::structure_of(world.groups[g].law));
+    if (!unsuitable) continue;
+    const ComponentOrigin formula = origin(scene, world, static_cast<int>(g), unsuitable->component);
+    throw InputError(formula.where, "method '" + std::string(world.method->name) + "' cannot integrate this: the " +
+                                        formula.text + " " + unsuitable->reason);
+  }
+}
+
+}  // namespace trajet
