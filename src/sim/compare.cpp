@@ -96,6 +96,7 @@ class ComparisonRun {
     MethodOptions options = scene_.method;
     options.name = method.name;
     options.where = plan_.methods_where;
+    options.order = std::min(options.order, method.max_order);
     return options;
   }
 

@@ -77,7 +77,8 @@ class SeriesStepper {
   /// Writes the last step. `error_bound` is the first term left out, and rounding.
   void fill_segment(Segment<kDimension>& segment) {
     if (by_runge_kutta_) {
-      runge_kutta_.fill(segment);
+      const auto rate = law();
+      runge_kutta_.fill(segment, rate);
       return;
     }
     segment.resize(series_.dimension(), order_);
@@ -98,6 +99,11 @@ class SeriesStepper {
   static constexpr int kMaxBranchChanges = 8;
   static constexpr double kRounding = std::numeric_limits<double>::epsilon();
 
+  /// The law on plain numbers.
+  auto law() const {
+    return [this](double t, const State& q, State& dq) { expansion_.rate(t, q, dq); };
+  }
+
   /// The terms up to the order, by Horner's rule.
   void evaluate_series(double tau, State& q) const {
     q = series_.coefficients().col(order_);
@@ -114,7 +120,7 @@ class SeriesStepper {
   }
 
   StepStatus advance_by_runge_kutta(double t1) {
-    const auto rate = [this](double t, const State& q, State& dq) { expansion_.rate(t, q, dq); };
+    const auto rate = law();
     runge_kutta_.start(t_, q_);
     runge_kutta_.evaluate_end(rate);
     runge_kutta_.begin_next();

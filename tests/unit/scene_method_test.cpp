@@ -1,0 +1,121 @@
+// The methods as scenes choose them: what suits which law, orders, steps, warnings.
+
+#include <gtest/gtest.h>
+
+#include "scene_run.hpp"
+
+namespace trajet::test {
+namespace {
+
+std::string message_of(const std::string& text) {
+  try {
+    run_text(text);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+std::string ball_scene(const std::string& method_lines, const std::string& law) {
+  return "[time]\nend = 10\n[method]\n" + method_lines +
+         "[[body]]\nname = \"ball\"\nposition = [0, 0, 1]\nvelocity = [2, 1, 0]\n" + law + "\n";
+}
+
+TEST(SceneMethod, ALawThatIsNotOfTimeAloneIsRefusedAtItsFormula) {
+  for (const std::string method : {"difference-linear", "difference-quadratic", "quadrature"}) {
+    const std::string lines = "name = \"" + method + "\"\nstep = 1\n";
+    EXPECT_EQ(message_of(ball_scene(lines, "acceleration = \"-v*norm(v)\"")),
+              "test.toml:10:16: error: method '" + method +
+                  "' cannot integrate this: the acceleration of body 'ball' depends on the motion that it causes, not "
+                  "on t alone");
+    EXPECT_EQ(
+        message_of(ball_scene(lines, "force = \"-r\"\nmass = 2")),
+        "test.toml:10:9: error: method '" + method +
+            "' cannot integrate this: the force of body 'ball' depends on the motion that it causes, not on t alone");
+    EXPECT_EQ(
+        message_of(ball_scene(lines, "[[state]]\nname = \"heat\"\nvalue = 1\nrate = \"-heat\"")),
+        "test.toml:13:8: error: method '" + method +
+            "' cannot integrate this: the rate of state 'heat' depends on the motion that it causes, not on t alone");
+  }
+}
+
+TEST(SceneMethod, VerletRefusesForcesThatDependOnVelocities) {
+  const std::string message = message_of(ball_scene("name = \"verlet\"\nstep = 1\n", "acceleration = \"-v\""));
+  EXPECT_EQ(
+      message.find("test.toml:10:16: error: method 'velocity-verlet' cannot integrate this: the acceleration of body "
+                   "'ball' depends on its own half of the state"),
+      0u)
+      << message;
+}
+
+TEST(SceneMethod, AnOrderIsForMethodsThatTakeOne) {
+  EXPECT_EQ(message_of(ball_scene("name = \"rk4\"\nstep = 1\norder = 3\n", "")),
+            "test.toml:4:8: error: method 'rk4' has an order of its own: [method] order does not go with it");
+  EXPECT_EQ(message_of(ball_scene("name = \"series\"\nstep = 1\norder = 40\n", "")),
+            "test.toml:4:8: error: method 'series' takes an order of at most 25");
+}
+
+// Erratum A1, as scenes: 171 with five steps, 176 with steps of 1, 2, 3 and 4 s, the exact 503/3 by the other formula.
+TEST(SceneMethod, TheCoursesSchemesGiveTheCoursesNumbers) {
+  const std::string law = "acceleration = [0, 0, \"t\"]";
+  const auto height = [&](const std::string& lines) {
+    return final_of(run_text(ball_scene(lines, law)), "ball").position.z();
+  };
+  EXPECT_NEAR(height("name = \"difference-linear\"\nstep = 2\n"), 171.0, 1e-13);
+  EXPECT_NEAR(height("name = \"difference-linear\"\nstep = 0.5\n"), 167.875, 1e-13);
+  EXPECT_NEAR(height("name = \"difference-linear\"\nsteps = [1, 2, 3, 4]\n"), 176.0, 1e-13);
+  EXPECT_NEAR(height("name = \"difference-quadratic\"\nsteps = [1, 2, 3, 4]\n"), 503.0 / 3.0, 1e-13);
+  EXPECT_NEAR(height("name = \"quadrature\"\n"), 503.0 / 3.0, 1e-12);
+  EXPECT_NEAR(height("name = \"series\"\nstep = 10\norder = 3\n"), 503.0 / 3.0, 1e-13);
+  EXPECT_NEAR(height("name = \"series\"\nstep = 10\norder = 2\n"), 1.0, 1e-13);
+}
+
+constexpr const char* kDragScene = R"(
+[time]
+end = 10
+[method]
+name = "SEDRK4c"
+step = 1
+rtol = RTOL
+[[body]]
+name = "p"
+velocity = [1, 1, 1]
+acceleration = ["-vx^2/2", "-vy^2", "-vz^2/3"]
+)";
+
+RunResult run_doubling(const std::string& rtol) {
+  std::string text = kDragScene;
+  text.replace(text.find("RTOL"), 4, rtol);
+  return run_text(text);
+}
+
+TEST(SceneMethod, StepDoublingReportsItsWorkAndWarns) {
+  EXPECT_EQ(run_doubling("1e-3").statistics.law_evaluations, 136);
+  EXPECT_EQ(run_doubling("1e-6").statistics.law_evaluations, 584);
+  const RunResult fine = run_doubling("1e-9");
+  EXPECT_EQ(fine.statistics.law_evaluations, 2840);
+  EXPECT_TRUE(fine.warnings.empty());
+  EXPECT_GT(fine.statistics.proposed_step, 0.0);
+  const RunResult capped = run_doubling("1e-12");
+  EXPECT_EQ(capped.status, RunStatus::finished);
+  ASSERT_EQ(capped.warnings.size(), 1u);
+  EXPECT_EQ(capped.warnings[0].find("rk4-doubling: 3 intervals, the first from t = 0 s"), 0u) << capped.warnings[0];
+}
+
+// A ball that comes to rest has another law from then on, which is still of time alone and of two halves.
+TEST(SceneMethod, BodiesComeToRestUnderEveryMethod) {
+  const std::string ground =
+      "[[obstacle]]\nname = \"ground\"\nshape = \"plane\"\npoint = [0, 0, 0]\nnormal = [0, 0, 1]\n"
+      "on_hit = \"bounce\"\nrestitution = 0.5\n";
+  for (const MethodInfo& method : methods()) {
+    const std::string lines =
+        "name = \"" + std::string(method.name) + "\"\n" + (method.needs_step() ? "step = 0.01\n" : "");
+    const RunResult result = run_text(ball_scene(lines, "acceleration = [0, 0, -9.8]\n" + ground));
+    EXPECT_EQ(result.status, RunStatus::finished) << method.name << ": " << result.failure;
+    EXPECT_EQ(impacts_of(result, ImpactKind::rest).size(), 1u) << method.name;
+    EXPECT_NEAR(final_of(result, "ball").position.x(), 20.0, 1e-9) << method.name;
+  }
+}
+
+}  // namespace
+}  // namespace trajet::test
