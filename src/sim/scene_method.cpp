@@ -41,11 +41,10 @@ ComponentOrigin origin(const Scene& scene, const World& world, int group, int co
     if (world.states[i].group == group && world.states[i].offset == component)
       return {"rate of state '" + world.states[i].name + "'", scene.states[i].rate.where()};
   }
-  const auto owns = [&](const World::Body& body) {
-    return body.group == group && body.offset <= component && component < body.offset + World::kBodySize;
-  };
-  const auto body = std::ranges::find_if(world.bodies, owns);
-  const BodyDefinition& definition = scene.bodies[static_cast<std::size_t>(body - world.bodies.begin())];
+  // bodies lie in the group's state in their order: the last one that begins at or before the component has it
+  const auto begins_before = [&](const World::Body& body) { return body.group == group && body.offset <= component; };
+  const auto body = std::find_if(world.bodies.rbegin(), world.bodies.rend(), begins_before);
+  const BodyDefinition& definition = scene.bodies[static_cast<std::size_t>(world.bodies.rend() - body) - 1];
   const std::string of_body = " of body '" + body->name + "'";
   if (component < body->offset + 3)
     return {"rate of the position" + of_body, definition.position_rate ? definition.position_rate->where() : definition.where};

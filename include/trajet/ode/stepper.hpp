@@ -30,8 +30,9 @@ struct StepStatistics {
 struct StepOptions {
   double rtol = 1e-12;  ///< tolerance relative to each component, error-controlled methods
   double atol = 1e-12;  ///< absolute tolerance in each component's unit, error-controlled methods
-  std::optional<double>
-      step{};  ///< fixed-step methods: the step (s, > 0), required unless `nodes`; others: the first step
+  /// s, > 0. Fixed-step methods: the step, required unless `nodes`; rk4-doubling: the output interval; quadrature: the
+  /// longest step; others: the first step.
+  std::optional<double> step{};
   std::vector<double> nodes{};  ///< fixed-step methods: the times of the step ends, for unequal steps
   int order = 0;                ///< series methods: the order; 0 lets the method choose
 };
