@@ -121,12 +121,24 @@ class ComparisonRun {
       if (is_adaptive(*method)) {
         for (const Expression& rtol : rtols()) ways.push_back({method, with_tolerance(*method, rtol)});
       } else if (plan_.step_counts.empty() && (scene_.method.step || !scene_.method.steps.empty())) {
-        ways.push_back({method, options(*method)});
+        add_given_steps(*method, options(*method), ways);
       } else {
-        for (const long count : step_counts()) ways.push_back({method, with_steps(*method, count)});
+        for (const long count : step_counts()) add_given_steps(*method, with_steps(*method, count), ways);
       }
     }
     return ways;
+  }
+
+  /// A method that divides its steps has an accuracy besides.
+  void add_given_steps(const MethodInfo& method, MethodOptions told, std::vector<Way>& ways) const {
+    if (method.control == StepControl::fixed) {
+      ways.push_back({&method, std::move(told)});
+      return;
+    }
+    for (const Expression& rtol : rtols()) {
+      told.rtol = rtol;
+      ways.push_back({&method, told});
+    }
   }
 
   std::span<const long> step_counts() const {
@@ -249,10 +261,8 @@ class ComparisonRun {
     try {
       const World world = this->world(way.options);
       row.step = world.step_options.step;
-      if (is_adaptive(*way.method)) {
-        row.rtol = world.step_options.rtol;
-        row.atol = world.step_options.atol;
-      }
+      if (way.method->control != StepControl::fixed) row.rtol = world.step_options.rtol;
+      if (is_adaptive(*way.method)) row.atol = world.step_options.atol;
       measure(world, row, observer_.begin_row(row, index, count));
     } catch (const ReferenceError&) {
       throw;

@@ -38,7 +38,6 @@ class DifferenceStepper {
  public:
   using State = Eigen::Matrix<double, Dim, 1>;
   static constexpr int kDimension = Dim;
-  static constexpr int kOrder = 2;
 
   /// Reads `step` or `nodes`. Throws std::invalid_argument if both are missing or wrong, or for a law that depends on
   /// its own solution.
@@ -86,9 +85,9 @@ class DifferenceStepper {
       if (is_linear(level)) evaluate_middle(components);
       if (level > 0) statistics_.law_evaluations += rate_.evaluate(components, t_, q_ + bound, shifted_rate);
       for (const int i : components) {
-        // A parabola of height d over the straight line has the area 2/3 h d.
-        const double curvature = middle_rate_[i] - 0.5 * (start_rate_[i] + end_rate_[i]);
-        const double own = is_linear(level) ? 2.0 / 3.0 * h * std::abs(curvature) : 0.0;
+        // a parabola over the straight line has 2/3 of its height times h as area
+        const double height = std::abs(middle_rate_[i] - 0.5 * (start_rate_[i] + end_rate_[i]));
+        const double own = is_linear(level) ? 2.0 / 3.0 * h * height : 0.0;
         const double from_below = h * std::abs(shifted_rate[i] - end_rate_[i]);
         const double rounding =
             std::numeric_limits<double>::epsilon() * (std::abs(segment.coefficients()(i, 0)) + std::abs(q_[i]));

@@ -26,7 +26,7 @@ namespace trajet {
 /// `Expansion` gives the coefficients: `LawExpansion` for a C++ law, `SystemExpansion` for a scene.
 /// - Where the law takes another branch (a comparison, abs, …), a step is interrupted and goes on behind it to its
 /// node.
-/// - Where there is no power series (a speed that vanishes), the step is one of rk4.
+/// - Where there is no power series (a speed that vanishes) or the branch stays undecided, the step is one of rk4.
 /// A Stepper.
 template <class Expansion>
 class SeriesStepper {
@@ -66,6 +66,7 @@ class SeriesStepper {
       // a branch that changes at once: expand again, behind it
       if (!(std::abs(duration) < smallest_step(t_))) break;
     }
+    if (std::abs(duration) < smallest_step(t_) && duration != target - t_) return advance_by_runge_kutta(target);
     const double t1 = std::abs(duration) < std::abs(target - t_) ? t_ + duration : target;
     series_.set_interval(t_, t1);
     by_runge_kutta_ = false;

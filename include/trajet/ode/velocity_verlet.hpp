@@ -31,7 +31,6 @@ class VelocityVerletStepper {
  public:
   using State = Eigen::Matrix<double, Dim, 1>;
   static constexpr int kDimension = Dim;
-  static constexpr int kOrder = 2;
 
   /// Reads `step` or `nodes`. Throws std::invalid_argument if both are missing or wrong, or for a law of another form.
   VelocityVerletStepper(Rate rate, const Structure& structure, const StepOptions& options)
