@@ -3,9 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "scene_run.hpp"
-#include "trajet/ode/registry.hpp"
 
 namespace trajet::test {
 namespace {
@@ -26,7 +26,7 @@ struct PublishedProblem {
   double amplification = 200.0;
 };
 
-constexpr double kDegree = 3.14159265358979323846 / 180.0;
+constexpr double kDegree = std::numbers::pi / 180.0;
 
 /// The sources stand in problems/: detest.hpp, lotka_volterra.hpp, two_body.hpp, arenstorf.hpp, euler_tops.hpp.
 const std::vector<PublishedProblem>& problems() {
@@ -171,7 +171,7 @@ atol = 1e-13
 [[body]]
 name = "planet"
 position = [0.5, 0, 0]
-velocity = [0, "sqrt(3)", 0]
+velocity = [0, "3^0.5", 0]
 acceleration = "-r/norm(r)^3"
 )";
   const Vector3 position(-5.780432953035361e-1, 8.633840009194193e-1, 0.0);

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "scene_run.hpp"
+#include "trajet/ode/registry.hpp"
 
 namespace trajet::test {
 namespace {
