@@ -26,8 +26,9 @@ const MethodInfo* find_scene_method(const MethodOptions& method) {
 void check_order(const MethodOptions& method, const MethodInfo& info) {
   if (method.order <= info.max_order) return;
   const std::string name = "method '" + std::string(info.name) + "'";
-  throw InputError(method.where, info.max_order == 0 ? name + " has an order of its own: [method] order does not go with it"
-                                                     : name + " takes an order of at most " + std::to_string(info.max_order));
+  throw InputError(method.where, info.max_order == 0
+                                     ? name + " has an order of its own: [method] order does not go with it"
+                                     : name + " takes an order of at most " + std::to_string(info.max_order));
 }
 
 /// The formula behind a component of a group's state, in words and as a place in the scene.
@@ -47,7 +48,14 @@ ComponentOrigin origin(const Scene& scene, const World& world, int group, int co
   const BodyDefinition& definition = scene.bodies[static_cast<std::size_t>(world.bodies.rend() - body) - 1];
   const std::string of_body = " of body '" + body->name + "'";
   if (component < body->offset + 3)
-    return {"rate of the position" + of_body, definition.position_rate ? definition.position_rate->where() : definition.where};
+    return {"rate of the position" + of_body,
+            definition.position_rate ? definition.position_rate->where() : definition.where};
+  if (body->rotation && component >= body->rotation->offset) {
+    for (const auto* law : {&definition.angular_acceleration, &definition.angular_acceleration_body, &definition.torque,
+                            &definition.torque_body})
+      if (*law) return {"rotation" + of_body, (*law)->where()};
+    return {"rotation" + of_body, definition.where};
+  }
   if (definition.force) return {"force" + of_body, definition.force->where()};
   return {"acceleration" + of_body, definition.acceleration ? definition.acceleration->where() : definition.where};
 }
@@ -68,7 +76,8 @@ void set_method(const MethodOptions& method, const SceneNumbers& numbers, World&
   double t = world.start;
   for (const Expression& step : method.steps) options.nodes.push_back(t += direction * numbers.positive(step, "step"));
   if (world.method->needs_step() && !options.step && options.nodes.empty())
-    throw InputError(method.where, "method '" + std::string(world.method->name) + "' takes fixed steps: give [method] step");
+    throw InputError(method.where,
+                     "method '" + std::string(world.method->name) + "' takes fixed steps: give [method] step");
   if (method.max_steps <= 0) throw InputError(method.where, "max_steps must be positive");
   world.max_steps = method.max_steps;
   world.locate = method.locate;
