@@ -64,7 +64,7 @@ class TaylorStepper {
 
   void start(double t, const State& q) {
     t_ = start_time_ = t;
-    q_ = q;
+    set_state(q);
     previous_step_ = 0.0;
   }
 
@@ -102,7 +102,7 @@ class TaylorStepper {
   }
 
   /// Replaces the state.
-  void amend(const State& q) { q_ = q; }
+  void amend(const State& q) { set_state(q); }
 
   double time() const { return t_; }
   const State& state() const { return q_; }
@@ -162,14 +162,33 @@ class TaylorStepper {
     return std::min(step, remaining);
   }
 
+  template <class Vector>
+  void set_state(const Vector& q) {
+    q_ = q;
+    remainder_ = State::Zero(q.size());
+  }
+
+  /// q(t0 + tau), where what rounding takes from the sum of q and its change waits for the next step: over many steps
+  /// the state's own rounding does not add up, only that of its changes.
+  void move_state(double tau) {
+    const auto& c = segment_.coefficients();
+    q_ = c.col(order_);
+    for (int k = order_ - 1; k >= 1; --k) q_ = q_ * tau + c.col(k);
+    for (int i = 0; i < segment_.dimension(); ++i) {
+      const double change = q_[i] * tau + remainder_[i];
+      q_[i] = c(i, 0) + change;
+      remainder_[i] = change - (q_[i] - c(i, 0));
+    }
+  }
+
   StepStatus accept(double t_limit, double step) {
     const double t0 = t_;
     t_ = step == t_limit - t0 ? t_limit : t0 + step;
     segment_.set_interval(t0, t_);
-    segment_.evaluate(t_, q_);
+    move_state(t_ - t0);
     if (!q_.allFinite()) {
       t_ = t0;
-      q_ = segment_.coefficients().col(0);
+      set_state(segment_.coefficients().col(0));
       return StepStatus::not_finite;
     }
     // a step cut short by the limit says nothing about the next one
@@ -192,7 +211,7 @@ class TaylorStepper {
     if (status != StepStatus::ok) return status;
     previous_step_ = std::abs(runge_kutta_->time() - t_);
     t_ = runge_kutta_->time();
-    q_ = runge_kutta_->state();
+    set_state(runge_kutta_->state());
     by_runge_kutta_ = true;
     ++statistics_.steps;
     return StepStatus::ok;
@@ -210,6 +229,7 @@ class TaylorStepper {
   double start_time_ = 0.0;
   double previous_step_ = 0.0;  // s, >= 0; 0: none yet
   State q_;
+  State remainder_;  // the state is q_ + remainder_
   State inverse_tolerance_;
   Segment<kDimension> segment_;
   std::optional<Fallback> runge_kutta_;
