@@ -56,6 +56,8 @@ int run_command(const RunArguments& arguments);
 int view_command(const ViewArguments& arguments);
 int check_command(const RunArguments& arguments);
 int compare_command(const CompareArguments& arguments);
+/// Computes published numbers anew and prints ours beside them; kNumbersFailed if one differs.
+int verify_command();
 int methods_command();
 /// Lists the built-in scenes, or prints the one of that name.
 int examples_command(const std::string& name);

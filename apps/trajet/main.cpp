@@ -109,10 +109,11 @@ int run_program(int argc, char** argv) {
   add_plot_option(compare, comparison);
   add_compare_options(compare, comparison);
   CLI::App& methods = *app.add_subcommand("methods", "list the integration methods");
+  CLI::App& verify = *app.add_subcommand("verify", "compute published numbers anew and compare");
   CLI::App& examples = *app.add_subcommand("examples", "list the built-in scenes, or print one");
   examples.add_option("NAME", example, "the scene to print");
 
-  check_command_name({"run", "view", "check", "compare", "methods", "examples"}, argc, argv);
+  check_command_name({"run", "view", "check", "compare", "methods", "examples", "verify"}, argc, argv);
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& success) {  // --help, --version
@@ -126,6 +127,7 @@ int run_program(int argc, char** argv) {
   if (check) return check_command(arguments);
   if (compare) return compare_command(comparison);
   if (methods) return methods_command();
+  if (verify) return verify_command();
   return examples_command(example);
 }
 
