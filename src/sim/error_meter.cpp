@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "rotations.hpp"
+
 namespace trajet {
 namespace {
 
@@ -19,6 +21,7 @@ void raise(Deviation& maximum, const Deviation& value) {
 
 void ErrorMeter::begin(const World& world) {
   if (onlooker_ != nullptr) onlooker_->begin(world);
+  world_ = &world;
   start_ = world.start;
   sample_ = world.end < world.start ? -world.sample : world.sample;
   groups_.resize(world.groups.size());
@@ -31,7 +34,7 @@ void ErrorMeter::begin(const World& world) {
       std::fill_n(group.is_position.begin() + offset, 3, true);
     }
     state_ = world.groups[g].start;
-    reference_.state(static_cast<int>(g), start_, reference_state_);
+    read_reference(static_cast<int>(g), start_);
     group.at_end = deviation(group);
     raise(at_samples_, group.at_end);
     raise(at_nodes_, group.at_end);
@@ -66,9 +69,14 @@ void ErrorMeter::motion(const MotionPiece& piece) {
 }
 
 Deviation ErrorMeter::deviation(const MotionPiece& piece, double t) {
-  piece.segment.evaluate(t, state_);
-  reference_.state(piece.group, t, reference_state_);
+  state_ = piece.state(t);
+  read_reference(piece.group, t);
   return deviation(groups_[static_cast<std::size_t>(piece.group)]);
+}
+
+void ErrorMeter::read_reference(int group, double t) {
+  reference_.state(group, t, reference_state_);
+  settle_orientations(*world_, group, reference_state_);
 }
 
 Deviation ErrorMeter::deviation(const Group& group) const {

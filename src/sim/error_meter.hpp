@@ -38,10 +38,12 @@ class ErrorMeter : public RunObserver {
   Deviation deviation(const MotionPiece& piece, double t);
   /// Of `state_` from `reference_state_`.
   Deviation deviation(const Group& group) const;
+  void read_reference(int group, double t);
 
   const Reference& reference_;
   RunObserver* onlooker_;
-  double start_ = 0.0;   // s
+  const World* world_ = nullptr;  // while the run lasts
+  double start_ = 0.0;            // s
   double sample_ = 0.0;  // s, signed
   std::vector<Group> groups_;
   Deviation at_samples_;

@@ -67,7 +67,7 @@ void Motion::begin(double t, const Eigen::VectorXd& q) {
 
 void Motion::hand_on(double t) {
   if (t == handed_on_) return;
-  observer_.motion({group_, segment_, handed_on_, t, begins_anew_, t == segment_.t1()});
+  observer_.motion({group_, segment_, handed_on_, t, begins_anew_, t == segment_.t1(), rotations_});
   handed_on_ = t;
   begins_anew_ = false;
 }

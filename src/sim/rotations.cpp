@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "trajet/sim/run_result.hpp"
+
 namespace trajet {
 
 Rotations::Rotations(const World& world, int group) {
@@ -60,6 +62,18 @@ void Rotations::settle(double t, Eigen::VectorXd& q) const {
       w = w_WB_B;
     }
   }
+}
+
+Eigen::VectorXd MotionPiece::state(double t) const {
+  Eigen::VectorXd q = segment.state(t);
+  rotations.settle(t, q);
+  return q;
+}
+
+void settle_orientations(const World& world, int group, Eigen::VectorXd& q) {
+  for (const int body : world.groups[static_cast<std::size_t>(group)].bodies)
+    if (const auto& rotation = world.bodies[static_cast<std::size_t>(body)].rotation)
+      rotation->layout.settle(q.data() + rotation->offset);
 }
 
 double Rotations::unsettled(const Eigen::VectorXd& q) const {

@@ -35,4 +35,7 @@ class Rotations {
   std::vector<Turning> turning_;
 };
 
+/// The orientations in a state of a group as reports have them, of a motion whose closed forms are not known.
+void settle_orientations(const World& world, int group, Eigen::VectorXd& q);
+
 }  // namespace trajet

@@ -158,6 +158,9 @@ std::optional<World::Rotation> rotation(const BodyDefinition& d, const Solid& so
     throw InputError((*law)->value().where(), "body '" + d.name +
                                                   "' has a torque but no inertia: give `inertia`, or an "
                                                   "extended shape with `mass` or `density`");
+  // sizes and masses far from those of this world overflow
+  if (result.inertia && !(result.inertia->allFinite() && is_possible_inertia(*result.inertia)))
+    throw InputError(d.where, "the inertia of body '" + d.name + "' is beyond the range of numbers");
   // free, with the same inertia about all axes: the angular velocity is constant
   const bool is_isotropic = result.inertia && *result.inertia == (*result.inertia)(0, 0) * Matrix3::Identity();
   if (result.is_free && is_isotropic) result.inertia.reset();

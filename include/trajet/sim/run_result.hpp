@@ -10,6 +10,7 @@
 
 namespace trajet {
 
+class Rotations;
 struct World;
 
 enum class RunStatus {
@@ -32,14 +33,14 @@ struct Impact {
   std::string body;
   std::string with;
   ImpactKind kind = ImpactKind::hit;
-  Vector3 point;            ///< of contact, on the obstacle
-  Vector3 normal;           ///< unit, of the obstacle at the point, towards the body's side before the impact
-  Vector3 position;         ///< of the body's centre of mass
+  Vector3 point;     ///< of contact, on the obstacle
+  Vector3 normal;    ///< unit, of the obstacle at the point, towards the body's side before the impact
+  Vector3 position;  ///< of the body's centre of mass
   Vector3 velocity_before;
   Vector3 velocity_after;
   Vector3 angular_velocity_before = Vector3::Zero();
   Vector3 angular_velocity_after = Vector3::Zero();
-  Vector3 impulse;          ///< per mass where the body has none: m/s, else N s
+  Vector3 impulse;                ///< per mass where the body has none: m/s, else N s
   double time_error_bound = 0.0;  ///< s
 };
 
@@ -64,8 +65,8 @@ struct BodyState {
   Vector3 position;  ///< of the centre of mass
   Vector3 velocity;
   Vector3 acceleration;
-  bool turns = false;                            ///< it has an angular velocity, which may be 0
-  Quaternion orientation{1.0, 0.0, 0.0, 0.0};    ///< q_WB, as carried: unit, unless the way of carrying it lets it drift
+  bool turns = false;                          ///< it has an angular velocity, which may be 0
+  Quaternion orientation{1.0, 0.0, 0.0, 0.0};  ///< q_WB, as carried: unit, unless the way of carrying it lets it drift
   Matrix3 rotation_matrix = Matrix3::Identity();  ///< R_WB, as carried: it may stretch where the way lets it
   Vector3 angular_velocity = Vector3::Zero();
   std::vector<PointState> points;
@@ -88,7 +89,7 @@ struct RunStatistics : StepStatistics {
 };
 
 struct RunResult {
-  std::string scene;   ///< file name
+  std::string scene;  ///< file name
   std::string title;
   std::string method;  ///< canonical name
   RunStatus status = RunStatus::finished;
@@ -109,8 +110,13 @@ struct MotionPiece {
   const Segment<>& segment;  ///< is the motion between `from` and `to`, which lie on it
   double from;               ///< s
   double to;                 ///< s; before `from` in a run backward in time
-  bool begins_anew;          ///< the state or the law may have jumped at `from`: the start, a bounce, an event that set it
-  bool ends_step;            ///< a step of the method ends at `to`; else an impact, an event or the run's end cut it
+  bool begins_anew;  ///< the state or the law may have jumped at `from`: the start, a bounce, an event that set it
+  bool ends_step;    ///< a step of the method ends at `to`; else an impact, an event or the run's end cut it
+  const Rotations& rotations;  ///< what `state` needs to know of the bodies that turn
+
+  /// The state at a time on the piece as reports have it: orientations are unit quaternions, rotation vectors are 0 and
+  /// their quaternions turned instead, closed forms are exact.
+  Eigen::VectorXd state(double t) const;
 };
 
 /// Receives a run while it goes on. Every function has a default that does nothing.
@@ -119,7 +125,8 @@ class RunObserver {
   virtual ~RunObserver() = default;
   /// Once, before all else: what is going to move. The World lives as long as the run.
   virtual void begin(const World&) {}
-  /// All of the motion, on the Segments that were searched for impacts. The pieces of a group join without gaps in time.
+  /// All of the motion, on the Segments that were searched for impacts. The pieces of a group join without gaps in
+  /// time.
   virtual void motion(const MotionPiece&) {}
   /// In order of time: the start, each multiple of the sample spacing, before and after each impact, the end.
   virtual void sample(const Sample&) {}
