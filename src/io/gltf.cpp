@@ -197,7 +197,9 @@ std::string gltf_binary(const MotionRecord& motion, const RunResult& result, dou
     if (keys.empty()) continue;
     const Pose& first = keys.begin()->second;
     builder.node(node).translation = {first.position.x(), first.position.y(), first.position.z()};
-    builder.add_animation(node, keys, false);
+    if (!first.q_WB.isApprox(Quaternion::Identity()))
+      builder.node(node).rotation = {first.q_WB.x(), first.q_WB.y(), first.q_WB.z(), first.q_WB.w()};
+    builder.add_animation(node, keys, body.rotation.has_value());
   }
   for (const World::Obstacle& obstacle : world.obstacles)
     builder.add_node(obstacle.name,

@@ -10,7 +10,11 @@ namespace {
 
 Pose pose(const World::Body& body, const Segment<>& segment, double t) {
   const Eigen::VectorXd q = segment.state(t);
-  return {q.segment<3>(body.offset), Quaternion::Identity()};
+  const Vector3 position = q.segment<3>(body.offset);
+  if (!body.rotation) return {position, body.q_WB};
+  // glTF knows rotations only: what stretches is left out
+  const Matrix3 R_WB = body.rotation->layout.rotation(q.data() + body.rotation->offset);
+  return {position, Quaternion(nearest_rotation(R_WB))};
 }
 
 }  // namespace

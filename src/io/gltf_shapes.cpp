@@ -113,7 +113,14 @@ GltfMesh ball_mesh(double radius) {
 }
 
 GltfMesh body_mesh(const World::Body& body, const Extent& extent) {
-  return ball_mesh(body.radius > 0.0 ? body.radius : kPointRadius * extent.size);
+  GltfMesh mesh;
+  for (const auto& triangle : body.surface.triangles) {
+    Vector3 corners[3];
+    for (std::size_t i = 0; i < 3; ++i) corners[i] = body.surface.vertices[static_cast<std::size_t>(triangle[i])];
+    add_polygon(mesh, corners, (corners[1] - corners[0]).cross(corners[2] - corners[0]).normalized());
+  }
+  if (!mesh.positions.empty()) return mesh;
+  return ball_mesh(body.radius > 0.0 && body.is_ball ? body.radius : kPointRadius * extent.size);
 }
 
 GltfMesh obstacle_mesh(const Shape& shape, const Extent& extent) {

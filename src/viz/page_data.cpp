@@ -83,12 +83,52 @@ Json constant_mass(const World::Body& body) {
   return nullptr;
 }
 
+Json shape_data(const World::Body& body) {
+  if (body.shape == "soccer-ball") return {{"kind", "soccer-ball"}, {"radius", body.radius}};
+  if (!body.surface.triangles.empty()) {
+    Json shape = {{"kind", "mesh"}, {"vertices", Json::array()}, {"triangles", body.surface.triangles}};
+    for (const Vector3& vertex : body.surface.vertices) shape["vertices"].push_back(array(vertex));
+    return shape;
+  }
+  if (body.radius > 0.0 && body.is_ball) return {{"kind", "sphere"}, {"radius", body.radius}};
+  return {{"kind", "point"}};
+}
+
+std::string_view kind(OrientationWay way) {
+  switch (way) {
+    case OrientationWay::matrix:
+      return "matrix";
+    case OrientationWay::rotation_vector:
+      return "rotation-vector";
+    case OrientationWay::quaternion_normalized:
+    case OrientationWay::quaternion:
+    case OrientationWay::exact:
+      break;
+  }
+  return "quaternion";
+}
+
+Json object(const World::Rotation& rotation) {
+  Json inertia;
+  if (rotation.inertia)
+    for (int row = 0; row < 3; ++row) inertia.push_back(array(Vector3(rotation.inertia->row(row))));
+  return {{"kind", kind(rotation.layout.way)},
+          {"component", rotation.offset},
+          {"angular_velocity", rotation.offset + rotation.layout.size()},
+          {"frame", rotation.layout.frame == Frame::world ? "world" : "body"},
+          {"inertia", inertia}};
+}
+
 Json body_data(const World::Body& body) {
-  Json shape = {{"kind", body.radius > 0.0 ? "sphere" : "point"}};
-  if (body.radius > 0.0) shape["radius"] = body.radius;
-  return {{"name", body.name},       {"shape", shape},          {"mass", constant_mass(body)},
-          {"group", body.group},     {"position", body.offset}, {"velocity", body.offset + 3},
-          {"points", Json::array()}, {"attitude", {1, 0, 0, 0}}};
+  const Quaternion& q = body.q_WB;
+  Json data = {{"name", body.name},           {"shape", shape_data(body)},
+               {"mass", constant_mass(body)}, {"group", body.group},
+               {"position", body.offset},     {"velocity", body.offset + 3},
+               {"points", Json::array()},     {"attitude", {q.w(), q.x(), q.y(), q.z()}}};
+  for (const World::Point& point : body.points)
+    data["points"].push_back({{"name", point.name}, {"position", array(point.p_B)}});
+  if (body.rotation) data["rotation"] = object(*body.rotation);
+  return data;
 }
 
 }  // namespace

@@ -219,6 +219,14 @@ export class Stage {
 
   render(t: number): void {
     this.time = t;
+    // first the camera: how large arrows are depends on it
+    if (this.followed) {
+      const place = this.frame.toView(this.followed.motion.position(t)).add(this.followed.offset);
+      const moved = place.clone().sub(this.followedPlace);
+      this.controls.target.add(moved);
+      this.camera.position.add(moved);
+      this.followedPlace.copy(place);
+    }
     const worldPixel = (2 * Math.tan(THREE.MathUtils.degToRad(kFieldOfViewDegrees / 2))) / this.container.clientHeight;
     const forward = this.camera.getWorldDirection(new THREE.Vector3());
     const pixel = (at: THREE.Vector3): number =>
@@ -229,12 +237,6 @@ export class Stage {
       if (markers) markers.visible = this.showsImpacts;
       for (const actor of actors) actor.update(t, this.shown, pixel, this.container.clientHeight);
     });
-    if (this.followed) {
-      const moved = this.followed.place.clone().sub(this.followedPlace);
-      this.controls.target.add(moved);
-      this.camera.position.add(moved);
-      this.followedPlace.copy(this.followed.place);
-    }
     // Depth has few digits: the range follows the distance that one looks at.
     const distance = this.camera.position.distanceTo(this.controls.target);
     this.camera.near = distance / 100;
