@@ -118,6 +118,23 @@ TEST(Gauss6, EnergyOfAnOrbitStaysAndAngularMomentumIsKept) {
   EXPECT_LT(momentum, 5e-14);
 }
 
+// The energy of an oscillator is quadratic, so that only rounding can change it: measured 4.4e-16 after 20000 steps,
+// and 2e-14 if the sums of the steps were not compensated.
+TEST(Gauss6, RoundingOfTheSumsDoesNotAddUp) {
+  const auto oscillator = [](const auto&, const auto& q, auto& dq) {
+    dq[0] = q[1];
+    dq[1] = -q[0];
+  };
+  StepOptions options;
+  options.step = 0.01;
+  auto stepper = Gauss6::make_stepper<2>(oscillator, 2, options);
+  stepper.start(0.0, State(1.0, 0.0));
+  for (int step = 0; step < 20'000; ++step) {
+    ASSERT_EQ(stepper.advance(1e9), StepStatus::ok);
+    ASSERT_NEAR(stepper.state().squaredNorm(), 1.0, 3e-15);
+  }
+}
+
 TEST(Gauss6, UnequalStepsLandOnTheirNodes) {
   SolveOptions options;
   options.nodes = {0.3, 0.5, 0.55, 0.9, 1.2, 1.25, 1.3};

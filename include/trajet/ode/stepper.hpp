@@ -22,7 +22,7 @@ enum class StepStatus {
 struct StepStatistics {
   long steps = 0;              ///< accepted steps
   long rejected_steps = 0;     ///< attempts that missed the tolerance
-  long law_evaluations = 0;    ///< evaluations of the law; an expansion into a power series counts once
+  long law_evaluations = 0;    ///< evaluations of the law; an expansion into a series or a Jacobian counts once
   double proposed_step = 0.0;  ///< s; the step that rk4-doubling would choose next, 0: the method says nothing
 };
 
