@@ -67,7 +67,7 @@ class CompareFigure {
         "set label 2 {} at screen 0.5, screen 0.936 center tc '#505050'\n"
         "set border lw 1.2 lc '#404040'\nset grid lc '#d8d8d8' lt 1 lw 0.8\n",
         quoted(comparison_.title.empty() ? comparison_.scene : comparison_.title), quoted(subtitle()));
-    add_motions({0.065, 0.50, 0.11, 0.80});
+    add_motions({0.085, 0.50, 0.11, motions_top()});
     script_ += "unset label 1\nunset label 2\nset logscale xy\nset format xy '10^{%T}'\nset termoption enhanced\n";
     add_work({0.585, 0.815, 0.56, 0.86}, "law evaluations", true);
     add_work({0.585, 0.815, 0.11, 0.42}, "time [ms]", false);
@@ -174,6 +174,12 @@ class CompareFigure {
     return chosen;
   }
 
+  /// Below the legend of the motions, a line for each and one for the reference.
+  double motions_top() const {
+    constexpr double kLine = 25.0 / kSize.height;
+    return 0.895 - kLine * static_cast<double>(1 + rows_to_draw().size());
+  }
+
   void add_motions(const Frame& frame) {
     const bool is_3d = view_.components.size() == 3;
     std::string plot;
@@ -211,7 +217,7 @@ class CompareFigure {
     for (std::size_t k = 0; k < labels.size(); ++k)
       script_ += detail::axis(kAxes[k], ranges_[k].padded(), is_3d ? 4 : 5) +
                  fmt::format("set {}label {}{}\n", kAxes[k], quoted(labels[k]), k == 2 ? " rotate by 90" : "");
-    script_ += fmt::format("set key at screen {}, screen {} left bottom Left reverse horizontal maxrows 4 samplen 2\n",
+    script_ += fmt::format("set key at screen {}, screen {} left bottom Left reverse vertical maxrows 10 samplen 2\n",
                            frame.left, frame.top + 0.008);
     script_ += (is_3d ? "splot " : "plot ") + plot + "\nunset zlabel\n";
   }
