@@ -165,8 +165,11 @@ class ComparisonRun {
       warn_of_another_start();
       return;
     }
-    for (const World::Body& body : base_.bodies)
+    for (const World::Body& body : base_.bodies) {
       for (const char* part : {".r", ".v"}) result_.components.push_back(body.name + part);
+      if (body.rotation)
+        for (const char* part : {".orientation", ".w"}) result_.components.push_back(body.name + part);
+    }
     for (const World::ExtraState& state : base_.states) result_.components.push_back(state.name);
     std::string failure;
     for (const MethodInfo* candidate : reference_candidates())
