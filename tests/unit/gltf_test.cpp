@@ -32,7 +32,7 @@ class Glb {
   }
 
   /// The floats of an accessor, one row per item.
-  std::vector<std::vector<float>> floats(const Json& index, int columns) const {
+  std::vector<std::vector<float>> floats(const Json& index, std::size_t columns) const {
     const Json& accessor = json["accessors"][index.get<std::size_t>()];
     const Json& view = json["bufferViews"][accessor["bufferView"].get<std::size_t>()];
     std::vector<std::vector<float>> rows(accessor["count"].get<std::size_t>(), std::vector<float>(columns));
@@ -44,23 +44,23 @@ class Glb {
     return rows;
   }
 
-  /// Key times and translations of a body.
+  /// Key times and translations of a body, or rotations.
   struct Keys {
     std::vector<float> times;
     std::vector<std::vector<float>> positions;
   };
-  Keys keys(const std::string& body) const {
+  Keys keys(const std::string& body, const std::string& path = "translation") const {
     const Json& animation = json["animations"][0];
     for (const Json& channel : animation["channels"]) {
       const auto target = channel["target"]["node"].get<std::size_t>();
-      if (json["nodes"][target]["name"] != body || channel["target"]["path"] != "translation") continue;
+      if (json["nodes"][target]["name"] != body || channel["target"]["path"] != path) continue;
       const Json& sampler = animation["samplers"][channel["sampler"].get<std::size_t>()];
       EXPECT_EQ(sampler.value("interpolation", "LINEAR"), "LINEAR");
-      Keys keys{{}, floats(sampler["output"], 3)};
+      Keys keys{{}, floats(sampler["output"], path == "rotation" ? 4 : 3)};
       for (const auto& row : floats(sampler["input"], 1)) keys.times.push_back(row[0]);
       return keys;
     }
-    throw std::out_of_range("no translation of '" + body + "'");
+    throw std::out_of_range("no " + path + " of '" + body + "'");
   }
 
   Json json;
@@ -117,7 +117,9 @@ TEST(Gltf, KeysAreTheMotion) {
   for (std::size_t i = 0; i < keys.times.size(); ++i) {
     const double t = keys.times[i];
     // single precision: 6e-8 of 9 m in position, and of the time at a speed below 5.4 m/s
-    if (i > 0) EXPECT_LT(keys.times[i - 1], keys.times[i]);
+    if (i > 0) {
+      EXPECT_LT(keys.times[i - 1], keys.times[i]);
+    }
     EXPECT_NEAR(keys.positions[i][0], 3.0 * t, 2e-6);
     if (t > std::sqrt(0.2)) continue;
     EXPECT_NEAR(keys.positions[i][2], 1.1 - 5.0 * t * t, 1e-6);
@@ -140,7 +142,8 @@ TEST(Gltf, TwoKeysAtEachImpactGiveItsPosition) {
     // impacts of the ball's last jumps come closer than single precision can tell
     EXPECT_EQ(keys.times[index + 1], std::nextafter(time, 10.0f));
     for (const std::size_t each : {index, index + 1})
-      for (int axis = 0; axis < 3; ++axis) EXPECT_NEAR(keys.positions[each][axis], impact.position[axis], 1e-6);
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        EXPECT_NEAR(keys.positions[each][axis], impact.position[static_cast<int>(axis)], 1e-6);
     ++impacts;
   }
   EXPECT_GT(impacts, 10);
@@ -154,8 +157,31 @@ TEST(Gltf, OneNodeTurnsTheSceneToYUp) {
   const auto q = glb.node("world")["rotation"].get<std::vector<double>>();
   const Vector3 up = Quaternion(q[3], q[0], q[1], q[2]) * Vector3(0, 0, 1);
   EXPECT_NEAR((up - Vector3(0, 1, 0)).norm(), 0.0, 1e-15);
-  for (const Json& node : glb.json["nodes"])
-    if (node["name"] != "world") EXPECT_FALSE(node.contains("rotation"));
+  for (const Json& node : glb.json["nodes"]) EXPECT_EQ(node.contains("rotation"), node["name"] == "world");
+}
+
+// q(t) = (cos t, 0, 0, sin t) for w = 2 rad/s about z, over more than a turn: quaternions of either sign are the same
+// rotation, but a change of sign between keys would make the linear interpolation run the wrong way round.
+TEST(Gltf, RotationKeysAreTheRotationAndDoNotChangeSign) {
+  const auto [result, glb] = animate(R"(
+[time]
+end = 5
+[[body]]
+name = "top"
+shape = "sphere"
+radius = 0.1
+angular_velocity = [0, 0, 2]
+)",
+                                     30.0);
+  const Glb::Keys keys = glb.keys("top", "rotation");
+  ASSERT_EQ(keys.times.size(), 151u);
+  for (std::size_t i = 0; i < keys.times.size(); ++i) {
+    const double t = keys.times[i];
+    const double sign = keys.positions[0][3] > 0.0f ? 1.0 : -1.0;
+    // single precision of the quaternion, and of the time: 5 * 6e-8
+    EXPECT_NEAR(keys.positions[i][2], sign * std::sin(t), 5e-7) << t;
+    EXPECT_NEAR(keys.positions[i][3], sign * std::cos(t), 5e-7) << t;
+  }
 }
 
 TEST(Gltf, TellsWhatAnEventHasSet) {

@@ -9,11 +9,13 @@ import { fileURLToPath, pathToFileURL } from "node:url";
 import { chromium } from "playwright-core";
 import { animatedPng } from "./apng.mjs";
 
-/** The scenes whose animation the README shows, with the bodies followed by the camera. */
-const kAnimated = [{ scene: "examples/free_kick.toml" }, { scene: "examples/t_handle.toml", follow: true }];
+/** The scenes whose animation the README shows: the part of the run, and how many pictures of it. */
+const kAnimated = [
+  { scene: "examples/free_kick.toml", from: 0, to: 1, frames: 48 },
+  { scene: "examples/t_handle.toml", from: 0.074, to: 0.1485, frames: 60 }, // turns over once
+];
 const kSize = { width: 720, height: 405 };
 const kAnimationSize = { width: 560, height: 300 };
-const kFrames = 48;
 const kFrameMilliseconds = 60;
 const kPauseMilliseconds = 1500;
 /** The part of a run at which its picture is taken. */
@@ -65,12 +67,11 @@ async function makePicture(scene) {
     `\`\`\`sh\nbuild/release/trajet view ${scene}\n\`\`\`\n`; // prettier-ignore
 }
 
-async function makeAnimation({ scene, follow }) {
+async function makeAnimation({ scene, from, to, frames: count }) {
   const page = await open(scene, kAnimationSize);
-  if (follow) await page.keyboard.press("f");
   const frames = [];
-  for (let i = 0; i < kFrames; ++i) {
-    await seek(page, i / (kFrames - 1));
+  for (let i = 0; i < count; ++i) {
+    await seek(page, from + ((to - from) * i) / (count - 1));
     frames.push(await page.screenshot());
   }
   const name = `${basename(scene, ".toml")}_animation.png`;
