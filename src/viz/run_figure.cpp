@@ -37,8 +37,7 @@ constexpr const char* kStateColor = "#6a3d9a";
 /// Builds the script panel by panel.
 class RunFigure {
  public:
-  RunFigure(const RunResult& result, const MotionRecord& record)
-      : result_(result), record_(record), world_(record.world()) {
+  RunFigure(const RunResult& result, const MotionRecord& record) : result_(result), world_(record.world()) {
     for (std::size_t g = 0; g < world_.groups.size(); ++g) curves_.push_back(make_curve(record, static_cast<int>(g)));
     body_count_ = std::min(world_.bodies.size(), kMostBodies);
     state_count_ = std::min(world_.states.size(), kMostStates);
@@ -239,7 +238,6 @@ class RunFigure {
   }
 
   const RunResult& result_;
-  const MotionRecord& record_;
   const World& world_;
   std::vector<Curve> curves_;
   std::size_t body_count_ = 0;
