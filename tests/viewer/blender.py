@@ -22,7 +22,7 @@ if "bool" not in vars(numpy):
     numpy.bool = bool  # the importer of Debian's Blender 3.4 is older than the NumPy beside it
 
 FPS = 60
-# Single precision in the file and in Blender, whose time is in frames: measured 4e-7 and less, of the coordinates.
+# Ten times what was measured: single precision in the file and in Blender, of the coordinates.
 TOLERANCE = 2e-6
 
 
