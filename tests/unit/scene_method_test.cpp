@@ -26,16 +26,16 @@ TEST(SceneMethod, ALawThatIsNotOfTimeAloneIsRefusedAtItsFormula) {
   for (const std::string method : {"difference-linear", "difference-quadratic", "quadrature"}) {
     const std::string lines = "name = \"" + method + "\"\nstep = 1\n";
     EXPECT_EQ(message_of(ball_scene(lines, "acceleration = \"-v*norm(v)\"")),
-              "test.toml:10:16: error: method '" + method +
+              "test.toml:10:17: error: method '" + method +
                   "' cannot integrate this: the acceleration of body 'ball' depends on the motion that it causes, not "
                   "on t alone");
     EXPECT_EQ(
         message_of(ball_scene(lines, "force = \"-r\"\nmass = 2")),
-        "test.toml:10:9: error: method '" + method +
+        "test.toml:10:10: error: method '" + method +
             "' cannot integrate this: the force of body 'ball' depends on the motion that it causes, not on t alone");
     EXPECT_EQ(
         message_of(ball_scene(lines, "[[state]]\nname = \"heat\"\nvalue = 1\nrate = \"-heat\"")),
-        "test.toml:13:8: error: method '" + method +
+        "test.toml:13:9: error: method '" + method +
             "' cannot integrate this: the rate of state 'heat' depends on the motion that it causes, not on t alone");
   }
 }
@@ -43,7 +43,7 @@ TEST(SceneMethod, ALawThatIsNotOfTimeAloneIsRefusedAtItsFormula) {
 TEST(SceneMethod, VerletRefusesForcesThatDependOnVelocities) {
   const std::string message = message_of(ball_scene("name = \"verlet\"\nstep = 1\n", "acceleration = \"-v\""));
   EXPECT_EQ(
-      message.find("test.toml:10:16: error: method 'velocity-verlet' cannot integrate this: the acceleration of body "
+      message.find("test.toml:10:17: error: method 'velocity-verlet' cannot integrate this: the acceleration of body "
                    "'ball' depends on its own half of the state"),
       0u)
       << message;
