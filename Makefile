@@ -24,7 +24,7 @@ demo: setup build ## set up, build, and fly the rifle shot; its files go to buil
 	build/release/trajet run examples/notes/rifle_shot.toml --json $(DEMO)/rifle_shot.json --csv $(DEMO)/rifle_shot.csv
 
 docs: setup build ## remake the gallery and the notes of docs/: outputs and pictures
-	@python3 -B tests/docs/readme.py refresh docs/notes/particles.md build/release/trajet
+	@for page in docs/notes/*.md; do python3 -B tests/docs/readme.py refresh $$page build/release/trajet; done
 	@scripts/setup browser
 	@node viewer/tools/gallery.mjs build/release/trajet $$(command -v chromium)
 
