@@ -8,6 +8,7 @@
 #include <string>
 
 #include "scene_run.hpp"
+#include "trajet/sim/compare.hpp"
 
 namespace trajet {
 namespace {
@@ -159,6 +160,19 @@ TEST(SolidScene, ABallThatTurnsBouncesAndTurnsOn) {
              std::remainder(std::sqrt(14.0), 2 * std::numbers::pi) * Vector3(1, 2, 3).normalized())
                 .norm(),
             1e-11);
+}
+
+TEST(SolidScene, OrientationsAreComparedAsReported) {
+  // both ways are exact at a constant angular velocity, whatever numbers a step leaves
+  for (const char* way : {"rotation-vector", "exact"}) {
+    ComparePlan plan;
+    plan.methods = {"euler"};
+    plan.step_counts = {100};
+    const std::string method = "[method]\norientation = \"" + std::string(way) + "\"\n";
+    const Comparison comparison = compare(parse_scene(scene("angular_velocity = [0, 4, 4]", method), "s"), plan);
+    ASSERT_EQ(comparison.rows.size(), 1u);
+    EXPECT_LE(comparison.rows[0].at_samples.state.value_or(1.0), 1e-10) << way;  // of the reference
+  }
 }
 
 TEST(SolidScene, ImpactsOfOtherSolidsAreNotMissedInSilence) {
