@@ -178,14 +178,13 @@ class ComparisonRun {
   }
 
   /// The one that was asked for; else error-controlled ones: those that are not compared first, the highest order
-  /// first.
+  /// that they have or can take first.
   std::vector<const MethodInfo*> reference_candidates() const {
     if (!plan_.reference.empty()) return {&method(plan_.reference, plan_.reference_where)};
     const std::vector<const MethodInfo*> compared = compared_methods();
     const auto rank = [&](const MethodInfo* method) {
-      constexpr int kOrderFromTolerance = 1000;  // above any given order
       const bool is_compared = std::ranges::find(compared, method) != compared.end();
-      return std::pair(is_compared, -(method->order == 0 ? kOrderFromTolerance : method->order));
+      return std::pair(is_compared, -std::max(method->order, method->max_order));
     };
     std::vector<const MethodInfo*> candidates;
     for (const MethodInfo& each : methods())
