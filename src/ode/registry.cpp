@@ -155,6 +155,10 @@ std::span<const MethodInfo> methods() {
       runge_kutta<Bs32Tableau>("bs32", {"ode23"}, "MATLAB: ode23 (F59)", "Bogacki and Shampine's pair 3(2)"),
       runge_kutta<Dopri5Tableau>("dopri5", {"ode45"}, "MATLAB: ode45 (F59)", "Dormand and Prince's pair 5(4)"),
       runge_kutta<Dop853Tableau>("dop853", {}, "", "Dormand and Prince's method 8(5,3)"),
+      row("series", {}, kSeriesOrder, kSeriesOrder, StepControl::fixed, "course: series of a chosen order (F10-F11)",
+          "exact derivatives; [method] order", make_series, SeriesStepper<SystemExpansion>::kMaxOrder),
+      row("taylor", {}, 0, 0, StepControl::adaptive, "course: Taylor series (F10)",
+          "exact derivatives; order chosen from the tolerance", make_taylor, kMaxTaylorOrder),
       gauss("gauss6", {}, "", "Gauss collocation, symplectic: long runs keep their energy"),
 #ifdef TRAJET_WITH_SUNDIALS
       multistep<MultistepFormula::adams>("adams", {"ode113"}, "MATLAB: ode113 (F59)",
@@ -181,10 +185,6 @@ std::span<const MethodInfo> methods() {
           0, unless_of_time),
       row("quadrature", {}, 0, 0, StepControl::adaptive, "course: direct integration (F8)",
           "laws of t alone: Gauss and Kronrod's rule", make_quadrature, 0, unless_of_time),
-      row("series", {}, kSeriesOrder, kSeriesOrder, StepControl::fixed, "course: series of a chosen order (F10-F11)",
-          "exact derivatives; [method] order", make_series, SeriesStepper<SystemExpansion>::kMaxOrder),
-      row("taylor", {}, 0, 0, StepControl::adaptive, "course: Taylor series (F10)",
-          "exact derivatives; order chosen from the tolerance", make_taylor, kMaxTaylorOrder),
   };
   return table;
 }
