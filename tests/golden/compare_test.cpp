@@ -53,8 +53,9 @@ TEST(CompareCommand, ComparesAllMethodsUnlessToldWhich) {
   const Json* previous = nullptr;
   for (const Json& row : report["rows"]) {
     if (row["status"] != "finished") continue;
-    if (previous != nullptr && (*previous)["method"] == row["method"] && (*previous)["max_error"] > 1e-12)
+    if (previous != nullptr && (*previous)["method"] == row["method"] && (*previous)["max_error"] > 1e-12) {
       EXPECT_LT(row["max_error"], (*previous)["max_error"]) << row;
+    }
     previous = &row;
   }
 }

@@ -168,7 +168,13 @@ std::string message_of_setting(const std::string& assignment) {
 }
 
 TEST(SceneOverrides, ReplaceWhatTheyName) {
-  const Scene scene = overridden({{"theta=2*v-0", "v-0=36 km/h"}, "rk4", "10 ms", "1e-3", "1e-4", "2 min"});
+  const Scene scene = overridden({.parameters = {"theta=2*v-0", "v-0=36 km/h"},
+                                  .method = "rk4",
+                                  .step = "10 ms",
+                                  .order = {},
+                                  .rtol = "1e-3",
+                                  .atol = "1e-4",
+                                  .end = "2 min"});
   EXPECT_EQ(scene.parameters[0].value.names(), std::vector<std::string>{"v-0"});
   EXPECT_EQ(scene.parameters[1].value.text(), Expression(10.0).text());
   EXPECT_EQ(scene.method.name, "rk4");
