@@ -41,8 +41,12 @@ std::optional<FreeRotation::Tumbling> FreeRotation::tumbling(const Quaternion& q
                                                              const Matrix3& inertia) {
   const PrincipalAxes principal = principal_axes(inertia);
   const Vector3 w_P = principal.R_BP.transpose() * w_WB_B;
-  const Vector3 momentum_P = principal.moments.cwiseProduct(w_P);
-  if (w_P.cross(momentum_P).isZero(0.0)) return std::nullopt;
+  // The torque that would keep w constant, w x I w; as a difference of products rounding would leave some of it.
+  const Vector3& moments = principal.moments;
+  const Vector3 gyroscopic(w_P.y() * w_P.z() * (moments.z() - moments.y()),
+                           w_P.z() * w_P.x() * (moments.x() - moments.z()),
+                           w_P.x() * w_P.y() * (moments.y() - moments.x()));
+  if (gyroscopic.isZero(0.0)) return std::nullopt;
 
   // The momentum turns around the axis of the largest moment c if L^2 >= 2 T b, that is c (c - b) w_c^2 >= a (b - a)
   // w_a^2 for a <= b <= c, else around that of the least; around that of a symmetric top in any case.

@@ -84,10 +84,10 @@ TYPED_TEST(Solutions, Rk4WithShortStepsIsRight) {
 
 // Where the solution is a polynomial within the reach of the method, one step is exact: F18 and F21 of the course.
 TEST(PolynomialMotion, IsExactInOneStepOfASufficientOrder) {
-  // rounding of numbers up to 177
+  // a few units in the last place of 61 and of 177: the sums of the polynomials are rounded thrice
   EXPECT_LE((end_error<Midpoint, ConstantAcceleration>(with_step(10.0))), 3e-14);
   EXPECT_LE((end_error<Rk4, ConstantAcceleration>(with_step(10.0))), 3e-14);
-  EXPECT_LE((end_error<Rk4, LinearAcceleration>(with_step(10.0))), 6e-14);
+  EXPECT_LE((end_error<Rk4, LinearAcceleration>(with_step(10.0))), 1.2e-13);
   EXPECT_LE((end_error<Taylor, LinearAcceleration>(with_tolerance(1e-12))), 6e-14);
 }
 
