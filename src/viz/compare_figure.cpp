@@ -69,8 +69,9 @@ class CompareFigure {
         quoted(comparison_.title.empty() ? comparison_.scene : comparison_.title), quoted(subtitle()));
     add_motions({0.085, 0.50, 0.11, motions_top()});
     script_ += "unset label 1\nunset label 2\nset logscale xy\nset format xy '10^{%T}'\nset termoption enhanced\n";
-    add_work({0.585, 0.815, 0.56, 0.86}, "law evaluations", true);
-    add_work({0.585, 0.815, 0.11, 0.42}, "time [ms]", false);
+    add_work({0.575, 0.79, 0.56, 0.86}, "law evaluations", true);
+    add_work({0.575, 0.79, 0.11, 0.42}, "time [ms]", false);
+    add_legend({0.8, 0.99, 0.11, 0.86});
     script_ += "unset multiplot\n";
     return {std::move(script_), kSize};
   }
@@ -247,12 +248,26 @@ class CompareFigure {
     script_ += detail::place(frame);
     script_ += detail::logarithmic_axis("x", costs) + detail::logarithmic_axis("y", errors);
     script_ += fmt::format("set xlabel {}\nset ylabel 'error'\n", quoted(label));
-    if (is_first)
-      script_ += fmt::format("set key at screen {}, screen {} left top Left reverse vertical maxrows 40 samplen 2.5\n",
-                             frame.right + 0.012, frame.top);
-    else
-      script_ += "unset key\n";
-    script_ += "plot " + plot + "\n";
+    script_ += "unset key\nplot " + plot + "\n";
+  }
+
+  /// The methods, in a panel of their own: beside a diagram gnuplot would break the list at its height.
+  void add_legend(const Frame& frame) {
+    std::string plot;
+    for (const auto& [method, look] : styles_) {
+      const bool is_drawn = std::ranges::any_of(comparison_.rows, [&](const ComparisonRow& row) {
+        return row.method == method && row.succeeded() && row.at_samples.state;
+      });
+      if (is_drawn)
+        plot += fmt::format("{}NaN with linespoints lw 1.8 lc '{}' pt {} ps 0.9 title {}", plot.empty() ? "" : ", ",
+                            look.color, look.point, quoted(method));
+    }
+    if (plot.empty()) return;
+    script_ += detail::place(frame) +
+               "unset logscale\nunset border\nunset tics\nunset grid\nunset xlabel\nunset ylabel\n"
+               "set xrange [0:1]\nset yrange [0:1]\n"
+               "set key at graph 0, graph 1 left top Left reverse vertical maxrows 40 samplen 2.5\nplot " +
+               plot + "\n";
   }
 
   const Comparison& comparison_;

@@ -12,7 +12,6 @@ namespace trajet {
 
 namespace {
 
-using detail::Frame;
 using detail::quoted;
 using detail::Range;
 
@@ -20,16 +19,36 @@ constexpr std::size_t kMostBodies = 3;
 constexpr std::size_t kMostStates = 4;
 constexpr std::size_t kMostImpactLines = 40;
 
-/// What is drawn of a body against time, in the course's colours.
+/// A vector that is drawn of a body against time.
 struct Quantity {
   const char* label;
   const char* color;
   bool is_rate;  // read from the rates of the state
-  int offset;    // behind the body's place in the state
+  int index;     // in the state, of its first component
 };
-constexpr Quantity kQuantities[] = {{"position [m]", "#0050c8", false, 0},
-                                    {"velocity [m/s]", "#008a20", false, 3},
-                                    {"acceleration [m/s²]", "#d01010", true, 3}};
+
+/// In the course's colours; the fourth one it leaves free.
+std::vector<Quantity> quantities_of(const World::Body& body, const Curve& curve) {
+  const auto is_zero = [&](int first, int count, const std::vector<std::vector<double>>& points) {
+    return std::ranges::all_of(points, [&](const std::vector<double>& point) {
+      return std::all_of(point.begin() + first, point.begin() + first + count, [](double x) { return x == 0.0; });
+    });
+  };
+  std::vector<Quantity> quantities;
+  const bool only_turns =
+      body.rotation && is_zero(body.offset, 6, curve.states) && is_zero(body.offset, 6, curve.rates);
+  if (!only_turns)
+    quantities = {{"position [m]", "#0050c8", false, body.offset},
+                  {"velocity [m/s]", "#008a20", false, body.offset + 3},
+                  {"acceleration [m/s²]", "#d01010", true, body.offset + 3}};
+  if (body.rotation) {
+    const bool is_in_world = body.rotation->layout.frame == Frame::world;
+    quantities.push_back({is_in_world ? "ω, world [rad/s]" : "ω, body's frame [rad/s]", "#b06000", false,
+                          body.rotation->offset + body.rotation->layout.size()});
+  }
+  return quantities;
+}
+
 /// Components differ by their dashes, which survive a copier and any eye.
 constexpr const char* kDashes[] = {"dt 1", "dt (14,6)", "dt (3,5)"};
 constexpr const char* kStateColor = "#6a3d9a";
@@ -40,12 +59,17 @@ class RunFigure {
   RunFigure(const RunResult& result, const MotionRecord& record) : result_(result), world_(record.world()) {
     for (std::size_t g = 0; g < world_.groups.size(); ++g) curves_.push_back(make_curve(record, static_cast<int>(g)));
     body_count_ = std::min(world_.bodies.size(), kMostBodies);
+    for (std::size_t b = 0; b < body_count_; ++b) {
+      const World::Body& body = world_.bodies[b];
+      quantities_.push_back(quantities_of(body, curves_[static_cast<std::size_t>(body.group)]));
+    }
     state_count_ = std::min(world_.states.size(), kMostStates);
   }
 
   Figure build() {
     const bool has_paths = !world_.bodies.empty() && path_dimension() >= 2;
-    const std::size_t rows = std::max<std::size_t>(body_count_ > 0 ? 3 : 0, state_count_);
+    std::size_t rows = state_count_;
+    for (const auto& quantities : quantities_) rows = std::max(rows, quantities.size());
     const std::size_t columns = body_count_ + (state_count_ > 0 ? 1 : 0) + (has_paths ? 1 : 0);
     figure_.size = {static_cast<int>(columns == 1 ? 760 : 560 * columns),
                     static_cast<int>(110 + 230 * std::max<std::size_t>(rows, 2))};
@@ -78,7 +102,7 @@ class RunFigure {
   }
 
   /// The frame of the panel in a column, `row` of `rows` from the top.
-  Frame frame(std::size_t column, std::size_t row, std::size_t rows) const {
+  detail::Frame frame(std::size_t column, std::size_t row, std::size_t rows) const {
     const double width = 1.0 / static_cast<double>(columns_), pixel_x = 1.0 / figure_.size.width,
                  pixel_y = 1.0 / figure_.size.height;
     const double top = 1.0 - 78.0 * pixel_y, height = (top - 16.0 * pixel_y) / static_cast<double>(rows);
@@ -89,7 +113,7 @@ class RunFigure {
   }
 
   /// A plot of lines against time.
-  void add_time_panel(const Frame& frame, const std::string& label, const Range& times, const Range& values,
+  void add_time_panel(const detail::Frame& frame, const std::string& label, const Range& times, const Range& values,
                       bool is_last, const std::string& lines) {
     std::string& script = figure_.script;
     script += detail::place(frame) + detail::axis("x", times, 6) + detail::axis("y", values.padded(), 5);
@@ -129,22 +153,22 @@ class RunFigure {
   void add_body(std::size_t index, std::size_t column) {
     const World::Body& body = world_.bodies[index];
     const Curve& curve = curves_[static_cast<std::size_t>(body.group)];
+    const std::vector<Quantity>& quantities = quantities_[index];
     std::array<bool, 3> moves{};
-    for (const Quantity& quantity : kQuantities)
+    for (const Quantity& quantity : quantities)
       for (std::size_t p = 0; p < curve.times.size(); ++p)
         for (int i = 0; i < 3; ++i)
-          moves[static_cast<std::size_t>(i)] |=
-              component(curve, p, quantity.is_rate, body.offset + quantity.offset + i) != 0.0;
+          moves[static_cast<std::size_t>(i)] |= component(curve, p, quantity.is_rate, quantity.index + i) != 0.0;
     if (moves == std::array<bool, 3>{}) moves.fill(true);
 
-    for (std::size_t q = 0; q < 3; ++q) {
-      const Quantity& quantity = kQuantities[q];
+    for (std::size_t q = 0; q < quantities.size(); ++q) {
+      const Quantity& quantity = quantities[q];
       std::vector<std::vector<double>> rows;
       Range values;
       for (std::size_t p = 0; p < curve.times.size(); ++p) {
         rows.push_back({curve.times[p]});
         for (int i = 0; i < 3; ++i) {
-          const double value = component(curve, p, quantity.is_rate, body.offset + quantity.offset + i);
+          const double value = component(curve, p, quantity.is_rate, quantity.index + i);
           rows.back().push_back(value);
           if (moves[static_cast<std::size_t>(i)]) values.include(value);
         }
@@ -158,7 +182,8 @@ class RunFigure {
                                name, i + 2, quantity.color, kDashes[i], "xyz"[i]);
       figure_.script += impact_lines(body.name);
       const std::string owner = world_.bodies.size() > 1 ? body.name + ": " : "";
-      add_time_panel(frame(column, q, 3), owner + quantity.label, times(curve), values, q == 2, lines);
+      add_time_panel(frame(column, q, quantities.size()), owner + quantity.label, times(curve), values,
+                     q + 1 == quantities.size(), lines);
     }
   }
 
@@ -223,7 +248,7 @@ class RunFigure {
       lines += ", $impacts with points pt 6 ps 1.2 lw 2 lc '#202020' title 'impact'";
     }
     const bool is_3d = kept_.size() == 3;
-    const Frame area = frame(column, 0, 1);
+    const detail::Frame area = frame(column, 0, 1);
     script += is_3d ? detail::place_3d(area) : detail::place(area);
     constexpr const char* kAxes[] = {"x", "y", "z"};
     for (std::size_t k = 0; k < kept_.size(); ++k) {
@@ -240,6 +265,7 @@ class RunFigure {
   const RunResult& result_;
   const World& world_;
   std::vector<Curve> curves_;
+  std::vector<std::vector<Quantity>> quantities_;  // of each body that is drawn
   std::size_t body_count_ = 0;
   std::size_t state_count_ = 0;
   std::size_t columns_ = 1;
