@@ -45,8 +45,9 @@ struct CompareArguments : RunArguments {
 
 /// What `trajet view` takes from the command line.
 struct ViewArguments : RunArguments {
-  std::vector<std::string> methods;  ///< further runs, shown beside the first
-  std::string out;                   ///< file name, `-` for standard output, empty for a temporary file
+  std::vector<std::string> methods;       ///< further runs, shown beside the first
+  std::vector<std::string> orientations;  ///< likewise, by the scene's method: ways of carrying orientations
+  std::string out;                        ///< file name, `-` for standard output, empty for a temporary file
   bool no_open = false;
   bool watch = false;  ///< serve the page, and make it anew when the scene file changes
 };

@@ -97,6 +97,9 @@ int run_program(int argc, char** argv) {
   view.add_option("--methods", viewed.methods, "further methods to show beside it, separated by commas")
       ->delimiter(',')
       ->type_name("NAME,...");
+  view.add_option("--orientations", viewed.orientations, "further ways of carrying orientations to show beside it")
+      ->delimiter(',')
+      ->type_name("NAME,...");
   view.add_option("--out", viewed.out, "write the page there, - for standard output")->type_name("FILE");
   view.add_flag("--no-open", viewed.no_open, "do not open a browser");
   view.add_flag("--watch", viewed.watch, "serve the page, and make it anew whenever the scene file changes");

@@ -4,6 +4,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <deque>
 
@@ -29,15 +30,18 @@ ViewPage make_view_page(const ViewArguments& arguments, const PageOptions& optio
     runs.push_back({motion, report_json(result)});
     return result.status;
   };
-  ViewPage page;
-  page.status = add_run(scene);
-  for (const std::string& method : arguments.methods) {
+  const auto add_variant = [&](const SceneOverrides& overrides) {
     Scene variant = scene;
-    SceneOverrides overrides;
-    overrides.method = method;
     apply(overrides, variant);
     add_run(variant);
-  }
+  };
+  ViewPage page;
+  page.status = add_run(scene);
+  for (const std::string& method : arguments.methods) add_variant({.method = method});
+  const auto turns = [](const World::Body& body) { return body.rotation.has_value(); };
+  if (!arguments.orientations.empty() && std::ranges::none_of(motions.front().world().bodies, turns))
+    throw InputError({"--orientations"}, "no body of the scene turns");
+  for (const std::string& way : arguments.orientations) add_variant({.orientation = way});
   page.html = page_html(runs, options);
   return page;
 }

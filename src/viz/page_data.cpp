@@ -131,15 +131,20 @@ Json body_data(const World::Body& body) {
   return data;
 }
 
+/// The way in which a run carries orientations, null where nothing turns.
+Json orientation_way(const World& world) {
+  for (const World::Body& body : world.bodies)
+    if (body.rotation) return orientation_info(body.rotation->layout.way).name;
+  return nullptr;
+}
+
 }  // namespace
 
 Json page_data(const PageRun& run) {
   const World& world = run.motion.world();
-  Json data = {{"report", Json::parse(run.report)},
-               {"bodies", Json::array()},
-               {"states", Json::array()},
-               {"obstacles", Json::array()},
-               {"groups", Json::array()}};
+  Json data = {{"report", Json::parse(run.report)}, {"orientation", orientation_way(world)},
+               {"bodies", Json::array()},           {"states", Json::array()},
+               {"obstacles", Json::array()},        {"groups", Json::array()}};
   for (const World::Body& body : world.bodies) data["bodies"].push_back(body_data(body));
   for (const World::ExtraState& state : world.states)
     data["states"].push_back({{"name", state.name}, {"group", state.group}, {"component", state.offset}});

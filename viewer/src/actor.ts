@@ -40,24 +40,34 @@ const dotTexture = (() => {
 })();
 
 /** Round dots of constant size on the screen. */
-export function dots(points: THREE.Vector3[], color: string, pixels: number, opacity = 1): THREE.Points {
+export function dots(points: THREE.Vector3[], color: string, pixels: number): THREE.Points {
   const material = new THREE.PointsMaterial({
     color,
     size: pixels,
     sizeAttenuation: false,
     map: dotTexture(),
-    alphaTest: 0.5 * opacity,
-    transparent: opacity < 1,
-    opacity,
+    alphaTest: 0.5,
   });
   const result = new THREE.Points(new THREE.BufferGeometry().setFromPoints(points), material);
   result.frustumCulled = false;
   return result;
 }
 
+/** Makes all that is drawn of an object as opaque as given, 1: as it was made. */
+export function setOpacity(object: THREE.Object3D, opacity: number): void {
+  object.traverse((each) => {
+    const { material } = each as THREE.Object3D & { material?: THREE.Material };
+    if (!material) return;
+    material.userData.ownOpacity ??= material.opacity;
+    material.opacity = (material.userData.ownOpacity as number) * opacity;
+    material.transparent = material.opacity < 1;
+    if (material.alphaTest > 0) material.alphaTest = 0.5 * material.opacity;
+  });
+}
+
 /** An arrow along its own y axis from the origin, of length 1. */
-function arrow(color: string, opacity: number): THREE.Group {
-  const material = new THREE.MeshBasicMaterial({ color, transparent: opacity < 1, opacity });
+function arrow(color: string): THREE.Group {
+  const material = new THREE.MeshBasicMaterial({ color });
   const shaft = new THREE.Mesh(new THREE.CylinderGeometry(0.02, 0.02, 0.8, 12).translate(0, 0.4, 0), material);
   const head = new THREE.Mesh(new THREE.ConeGeometry(0.07, 0.22, 20).translate(0, 0.89, 0), material);
   return new THREE.Group().add(shaft, head);
@@ -76,22 +86,25 @@ export class Actor {
   private readonly wholeWay: THREE.Line;
   private readonly times: number[];
   private readonly points: THREE.Vector3[];
-  /** How far the body reaches from its centre, and where that is now, in the drawing. */
+  /** How far the body reaches from its centre, and the same with the most that its numbers ever stretch it. */
   readonly reach: number;
+  readonly widest: number;
+  /** Where its centre is now, its top and its foot, in the drawing. */
   readonly place = new THREE.Vector3();
+  readonly top = new THREE.Vector3();
+  readonly foot = new THREE.Vector3();
   /** Of the whole run, in the drawing. */
   readonly offset = new THREE.Vector3();
   private readonly mostSpeed: number;
   private readonly mostAcceleration: number;
 
-  /** `opacity` < 1: a ghost. */
   constructor(
     readonly motion: BodyMotion,
     private readonly frame: ViewFrame,
     readonly color: string,
-    opacity: number,
   ) {
     this.reach = reach(motion.data) * frame.scale;
+    this.widest = this.reach * largestStretch(motion);
     const trail = trailOf(motion, (1e-4 * kViewSize) / frame.scale);
     this.times = trail.times;
     this.points = trail.points.map((point) => frame.toView(point));
@@ -103,48 +116,46 @@ export class Actor {
     const geometry = bodyGeometry(motion.data.shape, color, motion.turns);
     if (geometry) {
       const material = new THREE.MeshStandardMaterial({ vertexColors: true, flatShading: motion.data.shape.kind !== "sphere", roughness: 0.6 });
-      material.transparent = opacity < 1;
-      material.opacity = opacity;
       this.body3d.add(new THREE.Mesh(geometry, material));
       if (motion.data.shape.kind !== "sphere")
         this.body3d.add(
           new THREE.LineSegments(
             new THREE.EdgesGeometry(geometry, 15),
-            new THREE.LineBasicMaterial({ color: "#1d1d22", transparent: true, opacity: 0.6 * opacity }),
+            new THREE.LineBasicMaterial({ color: "#1d1d22", transparent: true, opacity: 0.6 }),
           ),
         );
     }
-    this.addPoints(color, opacity);
+    this.addPoints(color);
     this.body3d.matrixAutoUpdate = false;
-    this.dot = dots([new THREE.Vector3()], color, kDotPixels, opacity);
-    this.velocity = arrow(kQuantityColors.velocity, opacity);
-    this.acceleration = arrow(kQuantityColors.acceleration, opacity);
+    this.dot = dots([new THREE.Vector3()], color, kDotPixels);
+    this.velocity = arrow(kQuantityColors.velocity);
+    this.acceleration = arrow(kQuantityColors.acceleration);
     this.axes = new THREE.Group();
     const directions: Vector[] = [[0, 0, -Math.PI / 2], [0, 0, 0], [Math.PI / 2, 0, 0]];
     directions.forEach((turn, i) => {
-      const axis = arrow(kComponentColors[i], opacity);
+      const axis = arrow(kComponentColors[i]);
       axis.rotation.set(...turn);
       this.axes.add(axis);
     });
 
     const positions = new Float32Array(this.points.length * 3);
     this.points.forEach((point, i) => point.toArray(positions, 3 * i));
-    const lineMaterial = new LineMaterial({ color, linewidth: 3, transparent: opacity < 1, opacity });
+    const lineMaterial = new LineMaterial({ color, linewidth: 3 });
     this.way = new Line2(new LineGeometry().setPositions(positions), lineMaterial);
     this.tip = new Line2(new LineGeometry().setPositions([0, 0, 0, 0, 0, 0]), lineMaterial);
     this.wholeWay = new THREE.Line(
       new THREE.BufferGeometry().setFromPoints(this.points),
-      new THREE.LineBasicMaterial({ color, transparent: true, opacity: 0.35 * opacity }),
+      new THREE.LineBasicMaterial({ color, transparent: true, opacity: 0.35 }),
     );
     for (const line of [this.way, this.tip, this.wholeWay]) line.frustumCulled = false;
     this.group.add(this.body3d, this.dot, this.velocity, this.acceleration, this.axes, this.way, this.tip, this.wholeWay);
   }
 
   /** Named points as dots, and, of a body without a shape, rods to them from the centre of mass. */
-  private addPoints(color: string, opacity: number): void {
+  private addPoints(color: string): void {
     const { points, shape } = this.motion.data;
     const { Mesh, SphereGeometry, CylinderGeometry, MeshStandardMaterial, Vector3, Quaternion } = THREE;
-    const material = new MeshStandardMaterial({ color, roughness: 0.5, transparent: opacity < 1, opacity });
+    const material = new MeshStandardMaterial({ color, roughness: 0.5 });
     const thickness = 0.035 * reach(this.motion.data);
     for (const { position } of points) {
       const end = vector(position);
@@ -167,6 +178,8 @@ export class Actor {
     const { motion } = this;
     const local = this.frame.toView(motion.position(t));
     this.place.copy(local).add(this.offset);
+    this.top.copy(this.place).z += this.widest;
+    this.foot.copy(this.place).z -= this.widest;
     const size = pixel(this.place);
     const [w, x, y, z] = motion.orientation(t);
     const turn = new THREE.Quaternion(x, y, z, w);
@@ -206,6 +219,19 @@ export class Actor {
     ends.needsUpdate = true;
     this.wholeWay.visible = isShown;
   }
+}
+
+/** By how much the numbers that carry a body's orientation lengthen it at most, at least 1. */
+function largestStretch(motion: BodyMotion): number {
+  if (!motion.turns) return 1;
+  const { begin, end } = motion.track;
+  const kTimes = 64;
+  let most = 1;
+  for (let i = 0; i <= kTimes; ++i) {
+    const m = motion.carriedMatrix(begin + ((end - begin) * i) / kTimes);
+    for (let k = 0; k < 3; ++k) most = Math.max(most, Math.hypot(m[k], m[3 + k], m[6 + k]));
+  }
+  return most;
 }
 
 const largest = (values: number[]): number => values.reduce((most, value) => Math.max(most, value), 0);

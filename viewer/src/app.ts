@@ -3,7 +3,7 @@ import type { Report, RunData, Vector } from "./data";
 import { checkbox, element, iconButton, kIcons } from "./dom";
 import { helpDialog } from "./help";
 import { ImpactList } from "./impact_list";
-import { Run } from "./motion";
+import { namedRuns, type Run } from "./motion";
 import { Plots } from "./plots";
 import { colorOf, Stage } from "./stage";
 import { applyTheme, rememberTheme, type Theme } from "./theme";
@@ -25,7 +25,7 @@ export class App {
   private lastFrame = 0;
 
   constructor(root: HTMLElement, data: readonly RunData[]) {
-    this.runs = data.map((each) => new Run(each));
+    this.runs = namedRuns(data);
     const [first] = this.runs;
     const { report } = first.data;
     document.title = titleOf(report);
@@ -75,9 +75,9 @@ export class App {
     return this.runs[run].body(body)!.position(t);
   }
 
-  /** The whole scene in the picture. */
-  showAll(): void {
-    this.stage?.showAll();
+  /** What is shown, the whole scene or a body, in the picture. */
+  fit(): void {
+    this.stage?.fit();
     this.isStale = true;
   }
 
@@ -152,22 +152,29 @@ export class App {
     );
     options.querySelectorAll("label")[1].classList.add("velocity");
     options.querySelectorAll("label")[2].classList.add("acceleration");
+    // What differs in the orientation only would stand one in the other.
+    const startsBeside = new Set(this.runs.map((run) => run.data.orientation)).size > 1;
     if (this.runs.length > 1)
       options.append(
-        checkbox("Other methods", "G", true, set((isOn) => (stage.showsGhosts = isOn))),
-        checkbox("Side by side", "S", false, set((isOn) => stage.setSideBySide(isOn))),
+        checkbox("Other runs", "G", true, set((isOn) => (stage.showsGhosts = isOn))),
+        checkbox("Side by side", "S", startsBeside, set((isOn) => stage.setSideBySide(isOn))),
       );
     const camera = element("select", { "aria-label": "Camera", title: "Camera (F)" }, element("option", { value: "" }, "Whole scene"));
     for (const body of this.runs[0].bodies) camera.append(element("option", { value: body.name }, `Follow ${body.name}`));
-    camera.addEventListener("change", () => {
+    const look = (): void => {
       if (camera.value === "") stage.showAll();
       else stage.follow(camera.value);
       stale();
-    });
+    };
+    camera.addEventListener("change", look);
+    if (startsBeside) {
+      camera.value = this.runs[0].bodies.find((body) => body.turns)!.name;
+      look();
+      stage.setSideBySide(true);
+    }
     const all = iconButton("Whole scene", "F", kIcons.all, () => {
       camera.value = "";
-      stage.showAll();
-      stale();
+      look();
     });
     const panel = element(
       "details",

@@ -76,6 +76,8 @@ export type ObstacleShape =
 
 export interface RunData {
   report: Report;
+  /** The way in which orientations are carried; null where nothing turns. */
+  orientation: string | null;
   bodies: BodyData[];
   states: { name: string; group: number; component: number }[];
   obstacles: { name: string; shape: ObstacleShape }[];

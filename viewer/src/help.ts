@@ -8,7 +8,7 @@ const kKeys: [string, string][] = [
   ["+, −", "faster, slower"],
   ["F", "follow the next body, or see the whole scene"],
   ["T, V, A, B, I", "trail, velocity, acceleration, body axes, impacts"],
-  ["G, S", "other methods, side by side"],
+  ["G, S", "other runs, side by side"],
   ["D", "light or dark"],
 ];
 

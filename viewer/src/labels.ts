@@ -1,11 +1,18 @@
 import * as THREE from "three";
 
+/** px around a body that texts leave free. */
+export const kBodyPixels = 8;
+
 /** A text at a point of the drawing. Where two would overlap, the one of lower priority is left out. */
 export interface LabelSpec {
   at: THREE.Vector3;
+  /** Where the text stands beneath if there is no room above `at`: the other end of something large. */
+  foot?: THREE.Vector3;
   text: string;
   className: string;
   priority: number;
+  /** A colour to show before the text. */
+  mark?: string;
 }
 
 interface Placed {
@@ -23,21 +30,22 @@ export interface Area {
   bottom: number;
 }
 
-/** px between two texts, and between a text and its point. */
+/** px between two texts, and between a text and its point: clear of the body that is at an impact. */
 const kGap = 4;
-const kOffset = 9;
+const kOffset = kBodyPixels + kGap + 1;
 
 export const overlap = (a: Area, b: Area): boolean =>
   a.left < b.right + kGap && b.left < a.right + kGap && a.top < b.bottom + kGap && b.top < a.bottom + kGap;
 
-/** The places around a point at which its text may stand, best first. */
-export function candidates(x: number, y: number, width: number, height: number): Area[] {
+/** The places around a point at which its text may stand in a picture of that width, best first. */
+export function candidates(x: number, y: number, width: number, height: number, pictureWidth: number): Area[] {
   const at = (left: number, top: number): Area => ({ left, top, right: left + width, bottom: top + height });
+  const centered = Math.min(Math.max(0, x - width / 2), pictureWidth - width);
   return [
-    at(x - width / 2, y - kOffset - height),
+    at(centered, y - kOffset - height),
     at(x + kOffset, y - height / 2),
     at(x - kOffset - width, y - height / 2),
-    at(x - width / 2, y + kOffset),
+    at(centered, y + kOffset),
   ];
 }
 
@@ -54,6 +62,7 @@ export class Labels {
       const element = document.createElement("span");
       element.className = `label ${spec.className}`;
       element.textContent = spec.text;
+      if (spec.mark) element.style.setProperty("--mark", spec.mark);
       this.layer.append(element);
       this.placed.push({ spec, element, width: 0, height: 0 });
     }
@@ -67,21 +76,21 @@ export class Labels {
   update(camera: THREE.Camera, width: number, height: number, occupied: readonly Area[]): void {
     const taken = [...occupied];
     const point = new THREE.Vector3();
+    const around = (at: THREE.Vector3, w: number, h: number): Area[] => {
+      point.copy(at).project(camera);
+      if (point.z >= 1 || Math.abs(point.x) > 1 || Math.abs(point.y) > 1) return [];
+      return candidates((0.5 + 0.5 * point.x) * width, (0.5 - 0.5 * point.y) * height, w, h, width);
+    };
+    const isFree = (area: Area): boolean =>
+      area.left >= 0 &&
+      area.top >= 0 &&
+      area.right <= width &&
+      area.bottom <= height &&
+      !taken.some((other) => overlap(area, other));
     for (const { spec, element, width: w, height: h } of this.placed) {
-      point.copy(spec.at).project(camera);
-      const isInFront = point.z < 1;
-      const x = (0.5 + 0.5 * point.x) * width;
-      const y = (0.5 - 0.5 * point.y) * height;
-      const place = isInFront
-        ? candidates(x, y, w, h).find(
-            (area) =>
-              area.left >= 0 &&
-              area.top >= 0 &&
-              area.right <= width &&
-              area.bottom <= height &&
-              !taken.some((other) => overlap(area, other)),
-          )
-        : undefined;
+      const [above, ...others] = around(spec.at, w, h);
+      const below = spec.foot ? around(spec.foot, w, h).slice(-1) : [];
+      const place = (above ? [above, ...below, ...others] : below).find(isFree);
       element.style.visibility = place ? "visible" : "hidden";
       if (!place) continue;
       taken.push(place);

@@ -142,12 +142,15 @@ export function quaternionOfMatrix(m: number[]): Quaternion {
 
 /** A run: all its bodies and further states, between `begin` and `end`. */
 export class Run {
+  /** What tells it from the other runs of the page. */
+  name: string;
   readonly bodies: BodyMotion[];
   readonly states: { name: string; value: (t: number, piece?: number) => number; track: Track }[];
   readonly begin: number;
   readonly end: number;
 
   constructor(readonly data: RunData) {
+    this.name = data.report.method;
     const tracks = data.groups.map((group) => Track.decode(group.pieces, group.dimension));
     // A run that ended where it began has no pieces, and nothing to show.
     this.bodies = data.bodies
@@ -167,13 +170,21 @@ export class Run {
     this.end = Math.max(data.report.start_time, data.report.end_time);
   }
 
-  get name(): string {
-    return this.data.report.method;
-  }
   get impacts(): Impact[] {
     return this.data.report.impacts;
   }
   body(name: string): BodyMotion | undefined {
     return this.bodies.find((body) => body.name === name);
   }
+}
+
+/** The runs of a page, named after what they differ in: the method, the way in which orientations are carried, or both. */
+export function namedRuns(data: readonly RunData[]): Run[] {
+  const runs = data.map((each) => new Run(each));
+  const count = (of: (each: RunData) => string | null): number => new Set(data.map(of)).size;
+  const hasMethods = count(({ report }) => report.method) > 1;
+  if (count(({ orientation }) => orientation) > 1)
+    for (const run of runs)
+      run.name = hasMethods ? `${run.data.report.method}, ${run.data.orientation}` : (run.data.orientation ?? run.name);
+  return runs;
 }

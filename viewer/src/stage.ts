@@ -1,10 +1,10 @@
 import * as THREE from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
-import { Actor, dots, type Visibility } from "./actor";
+import { Actor, dots, setOpacity, type Visibility } from "./actor";
 import type { Impact } from "./data";
 import { element } from "./dom";
 import * as format from "./format";
-import { type Area, Labels, type LabelSpec } from "./labels";
+import { type Area, kBodyPixels, Labels, type LabelSpec } from "./labels";
 import type { Run } from "./motion";
 import { Scenery } from "./scenery";
 import { cssColor, kPalette } from "./theme";
@@ -14,8 +14,9 @@ import { kViewSize, sceneBox, ViewFrame } from "./view_frame";
 const kMostImpactLabels = 60;
 /** A ghost is seen through. */
 const kGhostOpacity = 0.45;
-/** px around a body that texts leave free. */
-const kBodyPixels = 8;
+/** From one body to the next where they stand side by side, in the reach of the largest; and how far a point reaches. */
+const kBodySpacing = 2.4;
+const kPointReach = 0.002 * kViewSize;
 const kFieldOfViewDegrees = 35;
 
 /** The colour of a body: its own in a single run, its run's where several are compared. */
@@ -27,6 +28,7 @@ export class Stage {
   readonly shown: Visibility = { trails: true, velocity: true, acceleration: true, axes: true };
   showsImpacts = true;
   showsGhosts = true;
+  private isSideBySide = false;
   private readonly renderer: THREE.WebGLRenderer;
   private readonly scene = new THREE.Scene();
   private readonly camera = new THREE.PerspectiveCamera(kFieldOfViewDegrees, 1, 0.01, 1000);
@@ -82,32 +84,65 @@ export class Stage {
 
   private addRun(run: Run, index: number): void {
     const group = new THREE.Group();
-    const opacity = index === 0 ? 1 : kGhostOpacity;
     this.actors.push(
       run.bodies.map((body, i) => {
         const color = colorOf(this.runs.length, index, i);
-        const actor = new Actor(body, this.frame, color, opacity);
+        const actor = new Actor(body, this.frame, color);
         group.add(actor.group);
         return actor;
       }),
     );
     const impacts = run.impacts.map((impact) => this.frame.toView(impact.point));
     if (impacts.length > 0) {
-      const markers = dots(impacts, "#dc2626", 10, opacity);
+      const markers = dots(impacts, "#dc2626", 10);
       markers.name = "impacts";
       group.add(markers);
     }
     this.scene.add(group);
     this.runGroups.push(group);
+    if (index > 0) setOpacity(group, kGhostOpacity);
   }
 
-  /** Runs at one place, or each at its own beside the one before. */
+  /** Runs at one place, the further ones as ghosts, or each at its own beside the one before. */
   setSideBySide(isSideBySide: boolean): void {
+    this.isSideBySide = isSideBySide;
+    this.runGroups.forEach((group, run) => setOpacity(group, run === 0 || isSideBySide ? 1 : kGhostOpacity));
+    this.fit();
+  }
+
+  /** Whether the picture is looked at along x, rather than along y: the way goes from left to right. */
+  private get isSeenAlongX(): boolean {
+    const { x, y } = this.frame.box.getSize(new THREE.Vector3());
+    return y > x;
+  }
+
+  /** From a run to the next, in the drawing: the scene's depth, or, where a body is followed, its width. */
+  private get spread(): THREE.Vector3 {
+    if (!this.isSideBySide) return new THREE.Vector3();
+    const alongX = new THREE.Vector3(1, 0, 0);
+    const alongY = new THREE.Vector3(0, 1, 0);
+    if (this.followed) return (this.isSeenAlongX ? alongY : alongX).multiplyScalar(kBodySpacing * this.followedReach);
     const size = this.frame.box.getSize(new THREE.Vector3());
-    const across = size.y <= size.x ? new THREE.Vector3(0, 1, 0) : new THREE.Vector3(1, 0, 0);
-    const step = (1.15 * Math.min(size.x, size.y) + 0.1 * Math.max(size.x, size.y, size.z)) * this.frame.scale;
+    const step = 1.15 * Math.min(size.x, size.y) + 0.1 * Math.max(size.x, size.y, size.z);
+    return (this.isSeenAlongX ? alongX : alongY).multiplyScalar(step * this.frame.scale);
+  }
+
+  /** Of the body that is followed, the largest of all runs. */
+  private get followedReach(): number {
+    const same = this.actors.flat().filter((each) => each.motion.name === this.followedBody);
+    return Math.max(kPointReach, ...same.map((each) => each.widest));
+  }
+
+  /** From the first run to the last. */
+  private get spreadOfAll(): THREE.Vector3 {
+    return this.spread.multiplyScalar(this.runs.length - 1);
+  }
+
+  /** Puts the runs where they are to stand. */
+  private arrange(): void {
+    const { spread } = this;
     this.actors.forEach((actors, run) => {
-      const offset = across.clone().multiplyScalar(isSideBySide ? run * step : 0);
+      const offset = spread.clone().multiplyScalar(run);
       this.runGroups[run].position.copy(offset);
       for (const actor of actors) actor.offset.copy(offset);
     });
@@ -128,16 +163,29 @@ export class Stage {
     this.refreshLabels();
   }
 
+  /** What is shown, the whole scene or a body, in the picture. */
+  fit(): void {
+    if (this.followed) this.follow(this.followedBody);
+    else this.showAll();
+  }
+
+  /** Tangents of the half angles that the picture spans. */
+  private get halfAngles(): { horizontal: number; vertical: number } {
+    const vertical = Math.tan(THREE.MathUtils.degToRad(kFieldOfViewDegrees / 2));
+    return { horizontal: vertical * this.camera.aspect, vertical };
+  }
+
   /** The whole scene in the picture, the way going from left to right. */
   showAll(): void {
-    this.follow(null);
-    const half = this.frame.box.getSize(new THREE.Vector3()).multiplyScalar(0.5 * this.frame.scale);
-    const away = half.y > half.x ? new THREE.Vector3(1, -0.35, 0.42) : new THREE.Vector3(-0.35, -1, 0.42);
+    this.followed = null;
+    this.arrange();
+    const middle = this.spreadOfAll.multiplyScalar(0.5);
+    const half = this.frame.box.getSize(new THREE.Vector3()).multiplyScalar(0.5 * this.frame.scale).add(middle);
+    const away = this.isSeenAlongX ? new THREE.Vector3(1, -0.35, 0.42) : new THREE.Vector3(-0.35, -1, 0.42);
     away.normalize();
     const side = this.camera.up.clone().cross(away).normalize();
     const up = away.clone().cross(side);
-    const vertical = Math.tan(THREE.MathUtils.degToRad(kFieldOfViewDegrees / 2));
-    const horizontal = vertical * this.camera.aspect;
+    const { horizontal, vertical } = this.halfAngles;
     // A corner at (x, y, z) of the view is inside where |x| <= (d - z) tan of the half angle.
     let distance = 0;
     for (let corner = 0; corner < 8; ++corner) {
@@ -153,24 +201,34 @@ export class Stage {
         depth + Math.abs(p.dot(up)) / vertical,
       );
     }
-    this.controls.target.set(0, 0, 0);
-    this.camera.position.copy(away.multiplyScalar(1.12 * distance));
+    this.controls.target.copy(middle);
+    this.camera.position.copy(middle).addScaledVector(away, 1.12 * distance);
     this.controls.update();
   }
 
-  /** Keeps a body of the first run in the middle, near; null: the camera stands still. */
+  /** Keeps a body of the first run, and those that stand beside it, in the middle, near. */
   follow(body: string | null): void {
-    const actor = this.actors[0]?.find((each) => each.motion.name === body) ?? null;
-    if (actor && actor !== this.followed) {
-      actor.update(this.time, this.shown, () => 0, 0);
-      const reach = Math.max(actor.reach, 0.002 * kViewSize);
-      const away = this.camera.position.clone().sub(this.controls.target).normalize();
-      this.controls.target.copy(actor.place);
-      this.camera.position.copy(actor.place).addScaledVector(away, 14 * reach);
-      this.followedPlace.copy(actor.place);
-      this.controls.update();
-    }
+    const actor = this.actors[0]?.find((each) => each.motion.name === body);
+    if (!actor) return;
     this.followed = actor;
+    this.arrange();
+    const { horizontal } = this.halfAngles;
+    const reach = this.followedReach;
+    const halfWidth = 0.5 * this.spreadOfAll.length() + 1.6 * reach;
+    const away = this.camera.position.clone().sub(this.controls.target);
+    // Seen at a slant, what stands nearer would look larger.
+    if (this.isSideBySide) away.addScaledVector(this.spread, -away.dot(this.spread) / this.spread.lengthSq());
+    away.normalize();
+    this.followedPlace.copy(this.placeToFollow(actor, this.time));
+    this.controls.target.copy(this.followedPlace);
+    const distance = this.isSideBySide ? halfWidth / horizontal + reach : 14 * reach;
+    this.camera.position.copy(this.followedPlace).addScaledVector(away, distance);
+    this.controls.update();
+  }
+
+  /** The middle of a body and of those that stand beside it. */
+  private placeToFollow(actor: Actor, t: number): THREE.Vector3 {
+    return this.frame.toView(actor.motion.position(t)).addScaledVector(this.spreadOfAll, 0.5);
   }
 
   get followedBody(): string | null {
@@ -188,9 +246,20 @@ export class Stage {
   refreshLabels(): void {
     const specs: LabelSpec[] = [...this.scenery.labels];
     this.runs.forEach((run, index) => {
+      const actors = this.actors[index];
+      const named = actors.find((each) => each.motion.name === this.followedBody) ?? actors[0];
+      if (named && this.isSideBySide && (index === 0 || this.showsGhosts))
+        specs.push({
+          at: named.top,
+          foot: named.foot,
+          text: run.name,
+          className: "label-run",
+          priority: 5,
+          mark: colorOf(this.runs.length, index, 0),
+        });
       if (!this.showsImpacts || (index > 0 && !this.showsGhosts)) return;
-      const named = run.impacts.filter((each, i) => i < kMostImpactLabels || each === this.highlighted);
-      for (const impact of named)
+      const shown = run.impacts.filter((each, i) => i < kMostImpactLabels || each === this.highlighted);
+      for (const impact of shown)
         specs.push({
           at: this.frame.toView(impact.point).add(this.runGroups[index].position),
           text: format.impact(impact),
@@ -221,13 +290,13 @@ export class Stage {
     this.time = t;
     // first the camera: how large arrows are depends on it
     if (this.followed) {
-      const place = this.frame.toView(this.followed.motion.position(t)).add(this.followed.offset);
+      const place = this.placeToFollow(this.followed, t);
       const moved = place.clone().sub(this.followedPlace);
       this.controls.target.add(moved);
       this.camera.position.add(moved);
       this.followedPlace.copy(place);
     }
-    const worldPixel = (2 * Math.tan(THREE.MathUtils.degToRad(kFieldOfViewDegrees / 2))) / this.container.clientHeight;
+    const worldPixel = (2 * this.halfAngles.vertical) / this.container.clientHeight;
     const forward = this.camera.getWorldDirection(new THREE.Vector3());
     const pixel = (at: THREE.Vector3): number =>
       worldPixel * Math.max(0.01, at.clone().sub(this.camera.position).dot(forward));

@@ -2,7 +2,7 @@
 // Writes pages and screenshots into FOLDER.
 
 import assert from "node:assert/strict";
-import { execFile, execFileSync, spawn } from "node:child_process";
+import { execFile, execFileSync, spawn, spawnSync } from "node:child_process";
 import { mkdirSync, readFileSync, statSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { after, before, test } from "node:test";
@@ -111,6 +111,36 @@ test("methods stand beside each other, in both colour schemes and on a phone", a
     assert.deepEqual(problems, []);
     await context.close();
   }
+});
+
+test("ways of carrying an orientation stand side by side", async () => {
+  const ways = ["exact", "quaternion", "quaternion-normalized"];
+  const { file } = view("notes/soccer_ball", "--orientation", ways[0], "--orientations", ways.slice(1).join());
+  for (const [name, options] of Object.entries({ ball_light: {}, ball_phone: { viewport: { width: 390, height: 844 }, deviceScaleFactor: 2 } })) {
+    const { page, context, problems } = await open(pathToFileURL(file).href, options);
+    assert.ok(await page.getByLabel("Side by side").evaluate((each) => each.checked));
+    await page.evaluate(() => window.trajet.seek(9.5));
+    await page.waitForTimeout(100);
+    // each ball has its name, from left to right
+    const names = await page.evaluate(() =>
+      [...document.querySelectorAll(".label-run")]
+        .filter((each) => each.style.visibility === "visible")
+        .sort((a, b) => a.getBoundingClientRect().left - b.getBoundingClientRect().left)
+        .map((each) => each.textContent),
+    );
+    assert.deepEqual(names, ways);
+    assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth));
+    await page.screenshot({ path: join(folder, `${name}.png`) });
+    assert.deepEqual(problems, []);
+    await context.close();
+  }
+});
+
+test("ways of carrying an orientation ask for a body that turns", () => {
+  const scene = join(examples, "notes/rifle_shot.toml");
+  const { status, stderr } = spawnSync(program, ["view", scene, "--no-open", "--orientations", "exact"], { encoding: "utf8" });
+  assert.equal(status, 2);
+  assert.match(stderr, /--orientations: error: no body of the scene turns/);
 });
 
 test("every control has a name", async () => {

@@ -1,6 +1,6 @@
 import { describe, expect, it } from "vitest";
-import type { BodyData, RotationData } from "../src/data";
-import { BodyMotion, product, quaternionOfMatrix, quaternionOfRotationVector, rotated } from "../src/motion";
+import type { BodyData, RotationData, RunData } from "../src/data";
+import { BodyMotion, namedRuns, product, quaternionOfMatrix, quaternionOfRotationVector, rotated } from "../src/motion";
 import { trailOf } from "../src/sampling";
 import { Track } from "../src/track";
 
@@ -105,5 +105,28 @@ describe("an orientation", () => {
     // the world's x axis is the body's -y axis: 7 * 2^2 / 2
     const motion = new BodyMotion(body({ mass: 1, rotation: rotation({ kind: "quaternion", inertia }) }), track);
     expect(motion.rotationEnergy(0.5)).toBeCloseTo(14, 14);
+  });
+});
+
+describe("runs", () => {
+  const run = (method: string, orientation: string | null): RunData => ({
+    report: { title: "", scene: "", method, status: "finished", start_time: 0, end_time: 1, impacts: [], events: [], warnings: [] },
+    orientation,
+    bodies: [],
+    states: [],
+    obstacles: [],
+    groups: [],
+  }); // prettier-ignore
+  const names = (...data: RunData[]): string[] => namedRuns(data).map(({ name }) => name);
+
+  it("are named after what they differ in", () => {
+    expect(names(run("euler", "exact"))).toEqual(["euler"]);
+    expect(names(run("taylor", null), run("euler", null))).toEqual(["taylor", "euler"]);
+    expect(names(run("euler", "exact"), run("euler", "matrix"))).toEqual(["exact", "matrix"]);
+    expect(names(run("rk4", "exact"), run("euler", "exact"), run("rk4", "matrix"))).toEqual([
+      "rk4, exact",
+      "euler, exact",
+      "rk4, matrix",
+    ]);
   });
 });

@@ -47,7 +47,7 @@ async function open(scene, viewport) {
   });
   // the picture fits its new size
   await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
-  await page.evaluate(() => window.trajet.showAll());
+  await page.evaluate(() => window.trajet.fit());
   return page;
 }
 

@@ -10,13 +10,13 @@ namespace trajet {
 
 /// What a command line changes in a scene. Values are written as in scene files: numbers, quantities, expressions.
 struct SceneOverrides {
-  std::vector<std::string> parameters;  ///< NAME=VALUE each
-  std::optional<std::string> method;
-  std::optional<std::string> step;
-  std::optional<int> order;
-  std::optional<std::string> rtol;
-  std::optional<std::string> atol;
-  std::optional<std::string> end;
+  std::vector<std::string> parameters{};  ///< NAME=VALUE each
+  std::optional<std::string> method{};
+  std::optional<std::string> step{};
+  std::optional<int> order{};
+  std::optional<std::string> rtol{};
+  std::optional<std::string> atol{};
+  std::optional<std::string> end{};
   std::optional<std::string> orientation{};
 };
 
