@@ -9,11 +9,15 @@ namespace trajet::detail {
 namespace {
 
 Pose pose(const World::Body& body, const Segment<>& segment, double t) {
-  const Eigen::VectorXd q = segment.state(t);
-  const Vector3 position = q.segment<3>(body.offset);
+  const auto at = [&](int component) { return segment.value(component, t); };
+  const Vector3 position(at(body.offset), at(body.offset + 1), at(body.offset + 2));
   if (!body.rotation) return {position, body.q_WB};
+  const OrientationLayout& layout = body.rotation->layout;
+  constexpr int kMostNumbers = 9;  // a matrix
+  double orientation[kMostNumbers] = {};
+  for (int i = 0; i < layout.size(); ++i) orientation[i] = at(body.rotation->offset + i);
   // glTF knows rotations only: what stretches is left out
-  const Matrix3 R_WB = body.rotation->layout.rotation(q.data() + body.rotation->offset);
+  const Matrix3 R_WB = layout.rotation(orientation);
   return {position, Quaternion(nearest_rotation(R_WB))};
 }
 

@@ -135,8 +135,9 @@ Extent extent(const MotionRecord& motion) {
       // enough points that no bend of a long piece is missed
       constexpr int kParts = 8;
       for (int i = 0; i <= kParts; ++i) {
-        const Eigen::VectorXd q = piece.segment.state(piece.from + (piece.to - piece.from) * i / kParts);
-        box.extend(Vector3(q.segment<3>(body.offset)));
+        const double t = piece.from + (piece.to - piece.from) * i / kParts;
+        const auto at = [&](int axis) { return piece.segment.value(body.offset + axis, t); };
+        box.extend(Vector3(at(0), at(1), at(2)));
       }
     }
   if (box.isEmpty()) return {Vector3::Zero(), 1.0};
