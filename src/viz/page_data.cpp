@@ -2,6 +2,7 @@
 
 #include <bit>
 #include <cmath>
+#include <optional>
 
 #include "base64.hpp"
 
@@ -75,12 +76,28 @@ std::string packed(const std::vector<MotionRecord::Piece>& pieces) {
   return base64({reinterpret_cast<const std::uint8_t*>(numbers.data()), numbers.size() * sizeof(double)});
 }
 
-/// A body's mass in kg where its formula needs neither time nor state, else null.
+/// What a program's output is worth where its formula needs neither time nor state.
+std::optional<double> constant_output(const Program& program, int output) {
+  for (const Program::Constant& constant : program.constants)
+    if (constant.slot == program.outputs[static_cast<std::size_t>(output)]) return constant.value;
+  return std::nullopt;
+}
+
+/// A body's mass in kg where it is constant, else null.
 Json constant_mass(const World::Body& body) {
-  if (!body.mass || !body.mass->instructions.empty()) return nullptr;
-  for (const Program::Constant& constant : body.mass->constants)
-    if (constant.slot == body.mass->outputs.front()) return constant.value;
-  return nullptr;
+  const std::optional<double> mass = body.mass ? constant_output(*body.mass, 0) : std::nullopt;
+  return mass ? Json(*mass) : Json();
+}
+
+/// What a body's law says of its acceleration where that is constant, m/s^2, else null.
+Json constant_acceleration(const World::Body& body, const Program& law) {
+  Json acceleration;
+  for (int i = 3; i < 6; ++i) {
+    const std::optional<double> component = constant_output(law, body.offset + i);
+    if (!component) return nullptr;
+    acceleration.push_back(*component);
+  }
+  return acceleration;
 }
 
 Json shape_data(const World::Body& body) {
@@ -116,15 +133,21 @@ Json object(const World::Rotation& rotation) {
           {"component", rotation.offset},
           {"angular_velocity", rotation.offset + rotation.layout.size()},
           {"frame", rotation.layout.frame == Frame::world ? "world" : "body"},
+          {"free", rotation.is_free},
           {"inertia", inertia}};
 }
 
-Json body_data(const World::Body& body) {
+Json body_data(const World::Body& body, const World::Group& group) {
   const Quaternion& q = body.q_WB;
-  Json data = {{"name", body.name},           {"shape", shape_data(body)},
-               {"mass", constant_mass(body)}, {"group", body.group},
-               {"position", body.offset},     {"velocity", body.offset + 3},
-               {"points", Json::array()},     {"attitude", {q.w(), q.x(), q.y(), q.z()}}};
+  Json data = {{"name", body.name},
+               {"shape", shape_data(body)},
+               {"mass", constant_mass(body)},
+               {"group", body.group},
+               {"field", constant_acceleration(body, group.law)},
+               {"position", body.offset},
+               {"velocity", body.offset + 3},
+               {"points", Json::array()},
+               {"attitude", {q.w(), q.x(), q.y(), q.z()}}};
   for (const World::Point& point : body.points)
     data["points"].push_back({{"name", point.name}, {"position", array(point.p_B)}});
   if (body.rotation) data["rotation"] = object(*body.rotation);
@@ -145,7 +168,8 @@ Json page_data(const PageRun& run) {
   Json data = {{"report", Json::parse(run.report)}, {"orientation", orientation_way(world)},
                {"bodies", Json::array()},           {"states", Json::array()},
                {"obstacles", Json::array()},        {"groups", Json::array()}};
-  for (const World::Body& body : world.bodies) data["bodies"].push_back(body_data(body));
+  for (const World::Body& body : world.bodies)
+    data["bodies"].push_back(body_data(body, world.groups[static_cast<std::size_t>(body.group)]));
   for (const World::ExtraState& state : world.states)
     data["states"].push_back({{"name", state.name}, {"group", state.group}, {"component", state.offset}});
   for (const World::Obstacle& obstacle : world.obstacles) {

@@ -196,7 +196,7 @@ export class Actor {
     this.axes.visible = shown.axes && motion.turns;
     this.axes.position.copy(local);
     this.axes.quaternion.copy(turn);
-    this.axes.scale.setScalar(Math.max(1.7 * this.reach, kAxisPixels * size));
+    for (const axis of this.axes.children) stretch(axis, Math.max(1.4 * this.reach, kAxisPixels * size), kAxisPixels * size);
 
     this.showWay(t, local, shown.trails);
   }
@@ -250,8 +250,11 @@ function point(
   arrow.position.copy(at);
   const unit = new THREE.Vector3(direction[0] / size, direction[1] / size, direction[2] / size);
   arrow.quaternion.setFromUnitVectors(new THREE.Vector3(0, 1, 0), unit);
-  const drawn = (longest * size) / most;
-  // As thick on the screen whatever its length, as long as it is longer than thick.
-  const thickness = Math.min(longest, 2 * drawn);
+  stretch(arrow, (longest * size) / most, longest);
+}
+
+/** An arrow of that length, as thick as one of the length `usual`, as long as it is longer than thick. */
+function stretch(arrow: THREE.Object3D, drawn: number, usual: number): void {
+  const thickness = Math.min(usual, 2 * drawn);
   arrow.scale.set(thickness, drawn, thickness);
 }

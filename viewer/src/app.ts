@@ -5,8 +5,8 @@ import { helpDialog } from "./help";
 import { ImpactList } from "./impact_list";
 import { namedRuns, type Run } from "./motion";
 import { Plots } from "./plots";
-import { colorOf, Stage } from "./stage";
-import { applyTheme, rememberTheme, type Theme } from "./theme";
+import { Stage } from "./stage";
+import { applyTheme, colorOf, rememberTheme, type Theme } from "./theme";
 import { Timeline } from "./timeline";
 
 /** What the scene calls itself, or else the name of its file. */

@@ -43,6 +43,8 @@ export interface BodyData {
   velocity: number;
   /** Named points in the body's frame, m. */
   points: { name: string; position: Vector }[];
+  /** The acceleration, m/s^2, where the law makes it constant; null where it is not. */
+  field: Vector | null;
   /** Where the body does not turn: how it stands, (w, x, y, z). */
   attitude: [number, number, number, number];
   /** Where it turns. */
@@ -61,6 +63,8 @@ export interface RotationData {
   angular_velocity: number;
   /** In which frame angular velocity and rotation vector are. */
   frame: "world" | "body";
+  /** Whether no torque acts, or the angular velocity is constant. */
+  free: boolean;
   /** About the centre of mass in the body's frame, kg m^2, row by row; null where the law needs none. */
   inertia: [Vector, Vector, Vector] | null;
 }

@@ -72,10 +72,15 @@ export class BodyMotion {
     return Math.hypot(...this.components(t, piece, rotation.component, 4)) - 1;
   }
 
-  /** J; per kg of the body, J/kg, where its mass is not known. Of the rotation too where the inertia is known. */
-  kineticEnergy(t: number, piece = this.track.pieceAt(t)): number {
+  /** Kinetic energy of the translation, J; per kg of the body, J/kg, where its mass is not known. */
+  translationEnergy(t: number, piece = this.track.pieceAt(t)): number {
     const v = this.velocity(t, piece);
-    return 0.5 * (this.data.mass ?? 1) * dot(v, v) + (this.data.mass === null ? 0 : this.rotationEnergy(t, piece));
+    return 0.5 * (this.data.mass ?? 1) * dot(v, v);
+  }
+
+  /** In the constant field of acceleration that the body is in, against the origin; J or J/kg likewise. */
+  potentialEnergy(t: number, piece = this.track.pieceAt(t)): number {
+    return this.data.field ? -(this.data.mass ?? 1) * dot(this.data.field, this.position(t, piece)) : 0;
   }
 
   /** J; 0 where the inertia is not known. */

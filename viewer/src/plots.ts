@@ -1,104 +1,18 @@
 import uPlot from "uplot";
 import "uplot/dist/uPlot.min.css";
-import { type BodyMotion, length, type Run } from "./motion";
+import { readableRange, textRoom, ticksBetween, tickTexts } from "./axis";
+import type { Run } from "./motion";
+import { isZero, type Quantity, quantitiesOf } from "./quantities";
 import { jumpsOf, samplingTimes } from "./sampling";
-import { cssColor, kComponentColors, kPalette, kQuantityColors } from "./theme";
+import { cssColor } from "./theme";
 import type { Track } from "./track";
 
-interface Curve {
-  label: string;
-  color: string;
-  /** Index and name of the run. */
-  run: number;
-  method: string;
-  track: Track;
-  value: (t: number, piece: number) => number;
-}
-
-/** A plot against time: what it is called, in which unit, and its curves. */
-interface Quantity {
-  title: string;
-  unit: string;
-  color?: string;
-  curves: Curve[];
-}
-
 const kHeight = 150;
+/** Against the times themselves: double precision tells no more. */
+const kShortestRange = 1e-12;
 /** Of the first run, and of those compared with it. */
 const kDashes: (number[] | undefined)[] = [undefined, [7, 4], [2, 3], [10, 3, 2, 3], [4, 8]];
 const dashOf = (run: number): number[] | undefined => (run === 0 ? undefined : kDashes[1 + ((run - 1) % 4)]);
-
-/** What there is to plot of a body, of the first run whole and of the others dashed. */
-export function quantitiesOf(runs: readonly Run[], bodyName: string | null): Quantity[] {
-  const quantities: Quantity[] = [];
-  const own = runs.flatMap((run, index) => {
-    const body = bodyName === null ? undefined : run.body(bodyName);
-    return body ? [{ body, run: index, method: run.name }] : [];
-  });
-  const components = (title: string, unit: string, color: string | undefined, of: (b: BodyMotion, t: number, p: number) => number[]) =>
-    quantities.push({
-      title,
-      unit,
-      color,
-      curves: own.flatMap(({ body, run, method }) =>
-        ["x", "y", "z"].map((axis, i) => ({
-          label: axis,
-          color: kComponentColors[i],
-          run,
-          method,
-          track: body.track,
-          value: (t: number, piece: number) => of(body, t, piece)[i],
-        })),
-      ),
-    });
-  const scalars = (title: string, unit: string, of: (b: BodyMotion, t: number, p: number) => number) =>
-    quantities.push({
-      title,
-      unit,
-      curves: own.map(({ body, run, method }) => ({
-        label: "",
-        color: kPalette[5],
-        run,
-        method,
-        track: body.track,
-        value: (t: number, piece: number) => of(body, t, piece),
-      })),
-    });
-  if (own.length > 0) {
-    const first = own[0].body;
-    components("position", "m", kQuantityColors.position, (b, t, p) => b.position(t, p));
-    components("velocity", "m/s", kQuantityColors.velocity, (b, t, p) => b.velocity(t, p));
-    components("acceleration", "m/s²", kQuantityColors.acceleration, (b, t, p) => b.acceleration(t, p));
-    scalars("speed", "m/s", (b, t, p) => length(b.velocity(t, p)));
-    scalars("kinetic energy", first.data.mass === null ? "J/kg" : "J", (b, t, p) => b.kineticEnergy(t, p));
-    if (first.data.rotation) {
-      components("angular velocity", "rad/s", undefined, (b, t, p) => b.angularVelocity(t, p));
-      if (first.data.rotation.inertia) scalars("rotation energy", "J", (b, t, p) => b.rotationEnergy(t, p));
-      const defect = first.data.rotation.kind === "matrix" ? "det R − 1" : "|q| − 1";
-      scalars(defect, "", (b, t, p) => b.orientationDefect(t, p));
-    }
-  }
-  const stateNames = [...new Set(runs.flatMap((run) => run.states.map((state) => state.name)))];
-  stateNames.forEach((name, i) =>
-    quantities.push({
-      title: name,
-      unit: "",
-      curves: runs.flatMap((run, index) =>
-        run.states
-          .filter((state) => state.name === name)
-          .map((state) => ({
-            label: "",
-            color: kPalette[i % kPalette.length],
-            run: index,
-            method: run.name,
-            track: state.track,
-            value: (t: number, piece: number) => state.value(t, piece),
-          })),
-      ),
-    }),
-  );
-  return quantities;
-}
 
 /** Curves on a common time axis: evaluated in the range that is shown, so that zooming in shows more. */
 function tabulate(quantity: Quantity, from: number, to: number, count: number): uPlot.AlignedData {
@@ -174,6 +88,7 @@ export class Plots {
 
   /** Shows this part of the time in every plot. */
   zoom(from: number, to: number): void {
+    if (to - from < kShortestRange * Math.max(Math.abs(from), Math.abs(to))) return;
     this.from = from;
     this.to = to;
     for (const { quantity, plot } of this.plots) {
@@ -200,7 +115,10 @@ export class Plots {
     this.plots = [];
     const wholeFrom = Math.min(...this.runs.map((run) => run.begin));
     const wholeTo = Math.max(...this.runs.map((run) => run.end));
-    for (const quantity of quantitiesOf(this.runs, this.body)) {
+    const quantities = quantitiesOf(this.runs, this.body);
+    const zero = quantities.filter(({ curves }) => isZero(curves));
+    for (const quantity of quantities) {
+      if (zero.includes(quantity)) continue;
       const figure = document.createElement("figure");
       figure.append(caption(quantity));
       this.container.append(figure);
@@ -217,6 +135,11 @@ export class Plots {
       this.plots.push({ quantity, plot });
       this.placeCursor(plot);
     }
+    if (zero.length === 0) return;
+    const note = document.createElement("p");
+    note.className = "zero";
+    note.textContent = `Zero throughout: ${zero.map(({ title }) => title).join(", ")}.`;
+    this.container.append(note);
   }
 
   private options(quantity: Quantity, wholeFrom: number, wholeTo: number): uPlot.Options {
@@ -228,6 +151,7 @@ export class Plots {
       ticks: { stroke: cssColor("--grid-soft"), width: 1, size: 4 },
       size: 24,
       gap: 3,
+      splits: (_plot, _axis, low, high) => ticksBetween(low, high),
     };
     return {
       width: this.container.clientWidth || 320,
@@ -235,10 +159,13 @@ export class Plots {
       legend: { show: false },
       padding: [6, 24, 0, 0],
       pxAlign: false,
-      scales: { x: { time: false, min: this.from, max: this.to }, y: { range: readableRange } },
+      scales: { x: { time: false, min: this.from, max: this.to }, y: { range: (_plot, low, high) => readableRange(low, high, quantity.least) } },
       axes: [
-        { ...axis, values: (_plot, splits) => splits.map((t, i) => tick(t) + (i === splits.length - 1 ? " s" : "")) },
-        { ...axis, size: 56, values: (_plot, splits) => splits.map(tick) },
+        {
+          ...axis,
+          values: (_plot, splits) => tickTexts(splits).map((text, i) => text + (i === splits.length - 1 ? " s" : "")),
+        },
+        { ...axis, size: (_plot, texts) => textRoom(texts ?? []), values: (_plot, splits) => tickTexts(splits) },
       ],
       series: [
         {},
@@ -281,22 +208,6 @@ export class Plots {
   }
 }
 
-/** A constant is a line in the middle, not noise of rounding blown up. */
-export function readableRange(_plot: unknown, low: number | null, high: number | null): [number, number] {
-  if (low === null || high === null || !Number.isFinite(low) || !Number.isFinite(high)) return [-1, 1];
-  const size = Math.max(Math.abs(low), Math.abs(high));
-  if (size === 0) return [-1, 1];
-  if (high - low <= 1e-12 * size) return [low - 0.1 * size, high + 0.1 * size];
-  const margin = 0.06 * (high - low);
-  return [low - margin, high + margin];
-}
-
-const tick = (value: number): string => {
-  const size = Math.abs(value);
-  const text = size !== 0 && (size < 1e-4 || size >= 1e6) ? value.toExponential(1) : String(Number(value.toPrecision(6)));
-  return text.replace("-", "−");
-};
-
 function caption(quantity: Quantity): HTMLElement {
   const element = document.createElement("figcaption");
   const title = document.createElement("span");
@@ -312,9 +223,10 @@ function caption(quantity: Quantity): HTMLElement {
     item.append(text);
     element.append(item);
   };
-  // colours tell the components, dashes the methods
+  // colours tell the components, dashes the runs; a single quantity has the colours of the runs
   for (const { label, color } of quantity.curves.filter(({ run, label }) => run === 0 && label)) key(label, color, undefined);
-  const methods = new Map(quantity.curves.map(({ run, method }) => [run, method]));
-  if (methods.size > 1) for (const [run, method] of methods) key(method, cssColor("--text-soft"), dashOf(run));
+  const runs = new Map(quantity.curves.map((curve) => [curve.run, curve]));
+  if (runs.size > 1)
+    for (const [run, { method, label, color }] of runs) key(method, label ? cssColor("--text-soft") : color, dashOf(run));
   return element;
 }

@@ -7,7 +7,7 @@ import * as format from "./format";
 import { type Area, kBodyPixels, Labels, type LabelSpec } from "./labels";
 import type { Run } from "./motion";
 import { Scenery } from "./scenery";
-import { cssColor, kPalette } from "./theme";
+import { colorOf, cssColor } from "./theme";
 import { kViewSize, sceneBox, ViewFrame } from "./view_frame";
 
 /** Impacts beyond so many get no text in the picture; the list has them all. */
@@ -18,10 +18,6 @@ const kGhostOpacity = 0.45;
 const kBodySpacing = 2.4;
 const kPointReach = 0.002 * kViewSize;
 const kFieldOfViewDegrees = 35;
-
-/** The colour of a body: its own in a single run, its run's where several are compared. */
-export const colorOf = (runCount: number, run: number, body: number): string =>
-  kPalette[(runCount > 1 ? run : body) % kPalette.length];
 
 /** The picture in space. */
 export class Stage {

@@ -1,6 +1,10 @@
 /** Colours of lines and bodies: [OkabeIto2008], distinguishable with any colour vision. */
 export const kPalette = ["#0072b2", "#e69f00", "#cc79a7", "#009e73", "#d55e00", "#56b4e9", "#b8a900", "#7f7f7f"];
 
+/** The colour of a body: its own in a single run, its run's where several are compared. */
+export const colorOf = (runCount: number, run: number, body: number): string =>
+  kPalette[(runCount > 1 ? run : body) % kPalette.length];
+
 /** Of the components x, y, z, in plots and on a body's axes. */
 export const kComponentColors = ["#e69f00", "#56b4e9", "#cc79a7"];
 

@@ -113,6 +113,24 @@ test("methods stand beside each other, in both colour schemes and on a phone", a
   }
 });
 
+test("the energy is the whole one where the law tells it, and what is zero takes no room", async () => {
+  const energies = {
+    "notes/cube": ["energy [J/kg]", ["translation", "potential", "total"], null],
+    free_kick: ["kinetic energy (translation) [J/kg]", [], null],
+    t_handle: ["energy (rotation) [J]", [], "Zero throughout: position, velocity, acceleration, speed."],
+    heavy_top: ["kinetic energy (rotation) [J]", [], "Zero throughout: position, velocity, acceleration, speed, kinetic energy (translation)."],
+  }; // prettier-ignore
+  for (const [scene, [title, parts, note]] of Object.entries(energies)) {
+    const { page, context, problems } = await open(pathToFileURL(view(scene).file).href);
+    const caption = page.locator("figcaption", { hasText: "energy" });
+    assert.equal(await caption.locator(".quantity").textContent(), title);
+    assert.deepEqual(await caption.locator(".curve").allTextContents(), parts);
+    assert.deepEqual(await page.locator(".zero").allTextContents(), note === null ? [] : [note]);
+    assert.deepEqual(problems, []);
+    await context.close();
+  }
+});
+
 test("ways of carrying an orientation stand side by side", async () => {
   const ways = ["exact", "quaternion", "quaternion-normalized"];
   const { file } = view("notes/soccer_ball", "--orientation", ways[0], "--orientations", ways.slice(1).join());

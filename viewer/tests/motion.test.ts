@@ -12,6 +12,7 @@ const body = (more: Partial<BodyData> = {}): BodyData => ({
   position: 0,
   velocity: 3,
   points: [],
+  field: null,
   attitude: [1, 0, 0, 0],
   ...more,
 });
@@ -21,6 +22,7 @@ const rotation = (more: Partial<RotationData>): RotationData => ({
   component: 6,
   angular_velocity: 10,
   frame: "world",
+  free: true,
   inertia: null,
   ...more,
 });
@@ -37,7 +39,13 @@ describe("a body", () => {
     expect(motion.position(0.5)).toEqual([1.5, 0, 0.75]);
     expect(motion.velocity(0.5)).toEqual([3, 0, -1]);
     expect(motion.acceleration(0.5)).toEqual([0, 0, -10]);
-    expect(motion.kineticEnergy(0.5)).toBe(10);
+    expect(motion.translationEnergy(0.5)).toBe(10);
+  });
+
+  it("has an energy in a constant field, and keeps the sum", () => {
+    const motion = new BodyMotion(body({ mass: 2, field: [0, 0, -10] }), flight);
+    expect(motion.potentialEnergy(0.5)).toBe(15);
+    for (const t of [0, 0.3, 0.9]) expect(motion.translationEnergy(t) + motion.potentialEnergy(t)).toBeCloseTo(25, 12);
   });
 
   it("leaves a trail that is as near to its path as asked", () => {

@@ -1,8 +1,8 @@
 import { describe, expect, it } from "vitest";
+import { readableRange, ticksBetween, tickTexts } from "../src/axis";
 import { Clock, comfortableSpeed, neighbour, speedsAround } from "../src/clock";
 import * as format from "../src/format";
 import { candidates, overlap } from "../src/labels";
-import { readableRange } from "../src/plots";
 
 describe("the clock", () => {
   it("plays at the speed chosen, stops at the end, and starts again from there", () => {
@@ -50,11 +50,25 @@ describe("numbers", () => {
 
 describe("a plot's range", () => {
   it("does not blow up the rounding of a constant", () => {
-    const [low, high] = readableRange(null, 5, 5 + 1e-14);
+    const [low, high] = readableRange(5, 5 + 1e-14);
     expect(low).toBeCloseTo(4.5, 10);
     expect(high).toBeCloseTo(5.5, 10);
-    expect(readableRange(null, 0, 0)).toEqual([-1, 1]);
-    expect(readableRange(null, null, null)).toEqual([-1, 1]);
+    expect(readableRange(0, 0)).toEqual([-1, 1]);
+    expect(readableRange(null, null)).toEqual([-1, 1]);
+    expect(readableRange(-2e-16, 4e-16, 1e-15)).toEqual([-1e-15, 1e-15]);
+  });
+
+  it("has ticks whose texts differ, however narrow it is", () => {
+    for (const [low, high] of [[0, 1], [-3e-16, 9e-16], [500.0001, 500.0003], [2.1e7, 2.3e7], [-40, 1]]) {
+      const ticks = ticksBetween(low, high);
+      expect(ticks.length).toBeGreaterThanOrEqual(3);
+      expect(ticks.length).toBeLessThanOrEqual(7);
+      const texts = tickTexts(ticks);
+      expect(new Set(texts).size).toBe(ticks.length);
+      texts.forEach((text, i) => expect(Number(text.replaceAll("−", "-"))).toBeCloseTo(ticks[i], 9));
+    }
+    expect(tickTexts([0, 0.5, 1])).toEqual(["0", "0.5", "1.0"]);
+    expect(tickTexts([-2e-16, 0, 2e-16])).toEqual(["−2e−16", "0", "2e−16"]);
   });
 });
 
