@@ -5,6 +5,8 @@
 #include <numbers>
 #include <span>
 
+#include "trajet/geom/faces.hpp"
+
 namespace trajet::detail {
 
 namespace {
@@ -30,23 +32,9 @@ void add_polygon(GltfMesh& mesh, std::span<const Vector3> corners, const Vector3
     mesh.indices.insert(mesh.indices.end(), {first, first + i - 1, first + i});
 }
 
-GltfMesh polygon_mesh(std::span<const Vector3> corners, const Vector3& normal) {
+GltfMesh polygon_mesh(const Face& polygon) {
   GltfMesh mesh;
-  add_polygon(mesh, corners, normal);
-  return mesh;
-}
-
-GltfMesh box_mesh(const Vector3& center, const Vector3& half_size, const Matrix3& R_WB) {
-  GltfMesh mesh;
-  for (int axis = 0; axis < 3; ++axis)
-    for (const double side : {-1.0, 1.0}) {
-      const Vector3 normal = side * R_WB.col(axis);
-      const Vector3 u = half_size[(axis + 1) % 3] * R_WB.col((axis + 1) % 3);
-      const Vector3 v = side * half_size[(axis + 2) % 3] * R_WB.col((axis + 2) % 3);
-      const Vector3 middle = center + half_size[axis] * normal;
-      const Vector3 corners[] = {middle - u - v, middle + u - v, middle + u + v, middle - u + v};
-      add_polygon(mesh, corners, normal);
-    }
+  add_polygon(mesh, polygon.corners, polygon.normal);
   return mesh;
 }
 
@@ -59,34 +47,22 @@ GltfMesh mesh_of(const Plane& plane, const Extent& extent) {
   const Vector3 center = extent.center - plane.normal.dot(extent.center - plane.point) * plane.normal;
   const Vector3 u = kPlaneHalf * extent.size * plane.normal.unitOrthogonal();
   const Vector3 v = plane.normal.cross(u);
-  const Vector3 corners[] = {center - u - v, center + u - v, center + u + v, center - u + v};
-  return polygon_mesh(corners, plane.normal);
+  return polygon_mesh({{center - u - v, center + u - v, center + u + v, center - u + v}, plane.normal});
 }
 
-GltfMesh mesh_of(const Disk& disk, const Extent&) {
-  const Vector3 u = disk.radius * disk.normal.unitOrthogonal();
-  const Vector3 v = disk.normal.cross(u);
-  std::vector<Vector3> corners;
-  for (int i = 0; i < kCircleSides; ++i) {
-    const double angle = 2.0 * pi * i / kCircleSides;
-    corners.push_back(disk.center + std::cos(angle) * u + std::sin(angle) * v);
-  }
-  return polygon_mesh(corners, disk.normal);
-}
+GltfMesh mesh_of(const Disk& disk, const Extent&) { return polygon_mesh(face(disk, kCircleSides)); }
 
-GltfMesh mesh_of(const Rectangle& rectangle, const Extent&) {
-  const Vector3 u = 0.5 * rectangle.width * rectangle.up.cross(rectangle.normal);
-  const Vector3 v = 0.5 * rectangle.height * rectangle.up;
-  const Vector3& c = rectangle.center;
-  const Vector3 corners[] = {c - u - v, c + u - v, c + u + v, c - u + v};
-  return polygon_mesh(corners, rectangle.normal);
-}
+GltfMesh mesh_of(const Rectangle& rectangle, const Extent&) { return polygon_mesh(face(rectangle)); }
 
-GltfMesh mesh_of(const Triangle& triangle, const Extent&) { return polygon_mesh(triangle.corners, triangle.normal); }
+GltfMesh mesh_of(const Triangle& triangle, const Extent&) { return polygon_mesh(face(triangle)); }
 
 GltfMesh mesh_of(const Sphere& sphere, const Extent&) { return moved(ball_mesh(sphere.radius), sphere.center); }
 
-GltfMesh mesh_of(const Box& box, const Extent&) { return box_mesh(box.center, box.half_size, box.R_WB); }
+GltfMesh mesh_of(const Box& box, const Extent&) {
+  GltfMesh mesh;
+  for (const Face& each : faces(box)) add_polygon(mesh, each.corners, each.normal);
+  return mesh;
+}
 
 }  // namespace
 

@@ -2,15 +2,47 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <utility>
 
 namespace trajet {
 
 namespace {
 
-/// Points of a whole run: a picture is some 1000 pixels wide, half of them a panel.
-constexpr double kPointsOfRun = 250.0;
+/// Points of a whole run before those that make no difference are dropped: a panel is some 500 pixels wide.
+constexpr double kPointsOfRun = 1000.0;
 /// Points of a piece, at least: a step of a method of high order can be the whole run, a bounce a hundredth of it.
 constexpr int kPointsOfPiece = 8;
+/// A line may pass a curve by this part of the curve's extent: half a pixel of a panel.
+constexpr double kBend = 1e-3;
+/// An interval between two of these points is halved so many times at most, while there are not so many points.
+constexpr int kMostHalvings = 5;
+constexpr std::size_t kMostPoints = 8000;
+/// A line takes the place of so many points at most.
+constexpr std::size_t kLongestLine = 200;
+
+/// Components of the state that are drawn together against one axis, or their rates.
+struct Drawn {
+  int first, count;
+  bool is_rate;
+  double extent = 0.0;
+
+  double value(const Curve& curve, std::size_t point, int i) const {
+    return (is_rate ? curve.rates : curve.states)[point][static_cast<std::size_t>(first + i)];
+  }
+};
+
+std::vector<Drawn> drawn_components(const World& world, int group) {
+  std::vector<Drawn> drawn;
+  for (const World::Body& body : world.bodies) {
+    if (body.group != group) continue;
+    drawn.insert(drawn.end(), {{body.offset, 3, false}, {body.offset + 3, 3, false}, {body.offset + 3, 3, true}});
+    if (body.rotation) drawn.push_back({body.rotation->offset + body.rotation->layout.size(), 3, false});
+  }
+  for (const World::ExtraState& state : world.states)
+    if (state.group == group) drawn.push_back({state.offset, 1, false});
+  return drawn;
+}
 
 void add_point(Curve& curve, const Segment<>& segment, double t) {
   std::vector<double> state, rate;
@@ -23,25 +55,122 @@ void add_point(Curve& curve, const Segment<>& segment, double t) {
   curve.rates.push_back(std::move(rate));
 }
 
+/// Part of a piece, between two neighbouring points of a curve.
+struct Interval {
+  const Segment<>* segment;
+  double from, to;
+};
+
+/// What makes a line through points look smooth, and what of them is too much.
+class Refinement {
+ public:
+  Refinement(std::vector<Drawn> drawn, const Curve& coarse) : drawn_(std::move(drawn)) {
+    for (Drawn& each : drawn_) {
+      double low = std::numeric_limits<double>::infinity(), high = -low;
+      for (std::size_t point = 0; point < coarse.times.size(); ++point)
+        for (int i = 0; i < each.count; ++i) {
+          low = std::min(low, each.value(coarse, point, i));
+          high = std::max(high, each.value(coarse, point, i));
+        }
+      each.extent = high - low;
+    }
+  }
+
+  /// Adds the points behind `from`, up to `to`.
+  void add(Curve& curve, const Interval& interval, int halvings = 0) const {
+    const double middle = interval.from + 0.5 * (interval.to - interval.from);
+    if (halvings < kMostHalvings && curve.times.size() < kMostPoints && bends(interval, middle)) {
+      add(curve, {interval.segment, interval.from, middle}, halvings + 1);
+      add(curve, {interval.segment, middle, interval.to}, halvings + 1);
+    } else {
+      add_point(curve, *interval.segment, interval.to);
+    }
+  }
+
+  /// The curve without the points that lines between the others pass closely.
+  Curve thinned(Curve curve) const {
+    std::size_t kept = 0, next = 0;  // the last point of the result, and what of the curve has not been looked at
+    const std::size_t count = curve.times.size();
+    std::vector<std::size_t> chosen;
+    for (; next < count; kept = next++) {
+      if (!chosen.empty())
+        while (next + 1 < count && next - kept < kLongestLine && is_line(curve, kept, next + 1)) ++next;
+      chosen.push_back(next);
+    }
+    Curve result;
+    for (const std::size_t point : chosen) {
+      result.times.push_back(curve.times[point]);
+      result.states.push_back(std::move(curve.states[point]));
+      result.rates.push_back(std::move(curve.rates[point]));
+    }
+    return result;
+  }
+
+ private:
+  bool bends(const Interval& interval, double middle) const {
+    const Segment<>& segment = *interval.segment;
+    return std::ranges::any_of(drawn_, [&](const Drawn& each) {
+      for (int i = each.first; i < each.first + each.count; ++i) {
+        const auto value = [&](double t) { return each.is_rate ? segment.derivative(i, t) : segment.value(i, t); };
+        if (std::abs(0.5 * (value(interval.from) + value(interval.to)) - value(middle)) > kBend * each.extent)
+          return true;
+      }
+      return false;
+    });
+  }
+
+  /// Whether the line between two points passes those in between.
+  bool is_line(const Curve& curve, std::size_t from, std::size_t to) const {
+    const double duration = curve.times[to] - curve.times[from];
+    if (duration == 0.0) return false;
+    return std::ranges::all_of(drawn_, [&](const Drawn& each) {
+      for (std::size_t point = from + 1; point < to; ++point)
+        for (int i = 0; i < each.count; ++i) {
+          const double part = (curve.times[point] - curve.times[from]) / duration;
+          const double start = each.value(curve, from, i), end = each.value(curve, to, i);
+          if (!(std::abs(start + part * (end - start) - each.value(curve, point, i)) <= 0.5 * kBend * each.extent))
+            return false;
+        }
+      return true;
+    });
+  }
+
+  std::vector<Drawn> drawn_;
+};
+
 }  // namespace
 
 Curve make_curve(const MotionRecord& record, int group) {
-  Curve curve;
+  Curve coarse;
   const auto& pieces = record.pieces(group);
-  if (pieces.empty()) return curve;
+  if (pieces.empty()) return coarse;
   const double shortest = std::abs(pieces.back().to - pieces.front().from) / kPointsOfRun;
+  std::vector<Interval> intervals;  // of each point but the first ones of pieces, whose intervals are empty
   for (std::size_t i = 0; i < pieces.size(); ++i) {
     const auto& piece = pieces[i];
     const double duration = piece.to - piece.from;
     const bool is_end = i == 0 || i + 1 == pieces.size();
-    if (!is_end && std::abs(piece.to - curve.times.back()) < shortest) continue;
-    add_point(curve, piece.segment, piece.from);
+    if (!is_end && std::abs(piece.to - coarse.times.back()) < shortest) continue;
+    add_point(coarse, piece.segment, piece.from);
+    intervals.push_back({&piece.segment, piece.from, piece.from});
     const double wanted = std::ceil(std::abs(duration) / shortest);
     const int count = piece.segment.degree() <= 1 ? 1 : static_cast<int>(std::max<double>(wanted, kPointsOfPiece));
-    for (int k = 1; k <= count; ++k)
-      add_point(curve, piece.segment, piece.from + duration * (static_cast<double>(k) / count));
+    for (int k = 1; k <= count; ++k) {
+      const double t = piece.from + duration * (static_cast<double>(k) / count);
+      intervals.push_back({&piece.segment, coarse.times.back(), t});
+      add_point(coarse, piece.segment, t);
+    }
   }
-  return curve;
+
+  const Refinement refinement(drawn_components(record.world(), group), coarse);
+  Curve curve;
+  for (const Interval& interval : intervals) {
+    if (interval.from == interval.to)
+      add_point(curve, *interval.segment, interval.to);
+    else
+      refinement.add(curve, interval);
+  }
+  return refinement.thinned(std::move(curve));
 }
 
 }  // namespace trajet

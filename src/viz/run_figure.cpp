@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <array>
 
+#include "path_panel.hpp"
 #include "plot_panel.hpp"
+#include "pose_strip.hpp"
 #include "trajet/viz/curve.hpp"
 
 namespace trajet {
@@ -53,26 +55,39 @@ std::vector<Quantity> quantities_of(const World::Body& body, const Curve& curve)
 constexpr const char* kDashes[] = {"dt 1", "dt (14,6)", "dt (3,5)"};
 constexpr const char* kStateColor = "#6a3d9a";
 
+std::vector<Curve> make_curves(const MotionRecord& record) {
+  std::vector<Curve> curves;
+  for (std::size_t g = 0; g < record.world().groups.size(); ++g)
+    curves.push_back(make_curve(record, static_cast<int>(g)));
+  return curves;
+}
+
 /// Builds the script panel by panel.
 class RunFigure {
  public:
-  RunFigure(const RunResult& result, const MotionRecord& record) : result_(result), world_(record.world()) {
-    for (std::size_t g = 0; g < world_.groups.size(); ++g) curves_.push_back(make_curve(record, static_cast<int>(g)));
+  RunFigure(const RunResult& result, const MotionRecord& record)
+      : result_(result), world_(record.world()), curves_(make_curves(record)), paths_(result, record, curves_) {
     body_count_ = std::min(world_.bodies.size(), kMostBodies);
     for (std::size_t b = 0; b < body_count_; ++b) {
       const World::Body& body = world_.bodies[b];
       quantities_.push_back(quantities_of(body, curves_[static_cast<std::size_t>(body.group)]));
     }
     state_count_ = std::min(world_.states.size(), kMostStates);
+    for (std::size_t b = 0; b < body_count_; ++b) {
+      const World::Body& body = world_.bodies[b];
+      const std::vector<Pose> poses = make_poses(record, body);
+      if (body.rotation && poses.size() > 1 && !detail::look(body).is_empty())
+        strip_.add_row(body.name + ", seen from its centre", detail::look(body), poses, detail::body_color(b));
+    }
   }
 
   Figure build() {
-    const bool has_paths = !world_.bodies.empty() && path_dimension() >= 2;
+    const bool has_paths = !paths_.is_empty();
     std::size_t rows = state_count_;
     for (const auto& quantities : quantities_) rows = std::max(rows, quantities.size());
     const std::size_t columns = body_count_ + (state_count_ > 0 ? 1 : 0) + (has_paths ? 1 : 0);
     figure_.size = {static_cast<int>(columns == 1 ? 760 : 560 * columns),
-                    static_cast<int>(110 + 230 * std::max<std::size_t>(rows, 2))};
+                    static_cast<int>(110 + 230 * std::max<std::size_t>(rows, 2)) + strip_.height()};
     columns_ = columns;
     figure_.script = fmt::format("set multiplot\nset label 1 {} at screen 0.5, screen {:.4f} center font ',21'\n",
                                  quoted(title()), 1.0 - 24.0 / figure_.size.height);
@@ -82,7 +97,15 @@ class RunFigure {
         "(2,4)\n";
     for (std::size_t b = 0; b < body_count_; ++b) add_body(b, b);
     if (state_count_ > 0) add_states(body_count_);
-    if (has_paths) add_paths(columns - 1);
+    if (has_paths) {
+      figure_.script += paths_.script(path_frame(columns - 1), figure_.size);
+      end_panel();
+    }
+    if (!strip_.is_empty()) {
+      const double pixel_x = 1.0 / figure_.size.width, pixel_y = 1.0 / figure_.size.height;
+      figure_.script += strip_.script(
+          {24.0 * pixel_x, 1.0 - 24.0 * pixel_x, 8.0 * pixel_y, (strip_.height() - 4.0) * pixel_y}, figure_.size);
+    }
     figure_.script += "unset multiplot\n";
     return std::move(figure_);
   }
@@ -105,11 +128,22 @@ class RunFigure {
   detail::Frame frame(std::size_t column, std::size_t row, std::size_t rows) const {
     const double width = 1.0 / static_cast<double>(columns_), pixel_x = 1.0 / figure_.size.width,
                  pixel_y = 1.0 / figure_.size.height;
-    const double top = 1.0 - 78.0 * pixel_y, height = (top - 16.0 * pixel_y) / static_cast<double>(rows);
+    const double top = 1.0 - 78.0 * pixel_y;
+    const double height = (top - (16.0 + strip_.height()) * pixel_y) / static_cast<double>(rows);
     const double left = width * static_cast<double>(column);
     const double panel_top = top - height * static_cast<double>(row);
     return {left + 104.0 * pixel_x, left + width - 22.0 * pixel_x, panel_top - height + 52.0 * pixel_y,
             panel_top - 22.0 * pixel_y};
+  }
+
+  /// That of the paths, which in space brings its own room for the axes' labels.
+  detail::Frame path_frame(std::size_t column) const {
+    detail::Frame whole = frame(column, 0, 1);
+    if (!paths_.is_in_space()) return whole;
+    whole.left -= 84.0 / figure_.size.width;
+    whole.right += 10.0 / figure_.size.width;
+    whole.bottom -= 40.0 / figure_.size.height;
+    return whole;
   }
 
   /// A plot of lines against time.
@@ -204,74 +238,16 @@ class RunFigure {
     }
   }
 
-  /// How many of the coordinates change, over all bodies; `kept_` are these.
-  int path_dimension() {
-    for (int i = 0; i < 3; ++i) {
-      for (const World::Body& body : world_.bodies) {
-        Range range;
-        const Curve& curve = curves_[static_cast<std::size_t>(body.group)];
-        for (std::size_t p = 0; p < curve.times.size(); ++p) range.include(component(curve, p, false, body.offset + i));
-        extents_[static_cast<std::size_t>(i)].include(range.low);
-        extents_[static_cast<std::size_t>(i)].include(range.high);
-      }
-      if (extents_[static_cast<std::size_t>(i)].extent() > 0.0) kept_.push_back(i);
-    }
-    return static_cast<int>(kept_.size());
-  }
-
-  void add_paths(std::size_t column) {
-    constexpr const char* kPathColors[] = {"#0050c8", "#e07b00", "#007a6c", "#a03a90", "#6b6b6b", "#8c5a2b"};
-    std::string& script = figure_.script;
-    std::string lines;
-    for (std::size_t b = 0; b < world_.bodies.size(); ++b) {
-      const World::Body& body = world_.bodies[b];
-      const Curve& curve = curves_[static_cast<std::size_t>(body.group)];
-      std::vector<std::vector<double>> rows;
-      for (std::size_t p = 0; p < curve.times.size(); ++p) {
-        rows.emplace_back();
-        for (const int i : kept_) rows.back().push_back(component(curve, p, false, body.offset + i));
-      }
-      script += detail::data_block(fmt::format("path{}", b), rows);
-      lines += fmt::format("{}$path{} with lines lw 2.4 lc '{}' title {}", lines.empty() ? "" : ", ", b,
-                           kPathColors[b % std::size(kPathColors)], b < 12 ? quoted(body.name) : "''");
-      if (kept_.size() == 3)
-        lines +=
-            fmt::format(", $path{} using 1:2:({}) with lines lw 1.2 lc '#c0c0c0' notitle", b, extents_[2].padded().low);
-    }
-    if (!result_.impacts.empty()) {
-      std::vector<std::vector<double>> rows;
-      for (const Impact& impact : result_.impacts) {
-        rows.emplace_back();
-        for (const int i : kept_) rows.back().push_back(impact.position[i]);
-      }
-      script += detail::data_block("impacts", rows);
-      lines += ", $impacts with points pt 6 ps 1.2 lw 2 lc '#202020' title 'impact'";
-    }
-    const bool is_3d = kept_.size() == 3;
-    const detail::Frame area = frame(column, 0, 1);
-    script += is_3d ? detail::place_3d(area) : detail::place(area);
-    constexpr const char* kAxes[] = {"x", "y", "z"};
-    for (std::size_t k = 0; k < kept_.size(); ++k) {
-      const int i = kept_[k];
-      script += detail::axis(kAxes[k], extents_[static_cast<std::size_t>(i)].padded(), is_3d ? 4 : 5);
-      script += fmt::format("set {}label '{} [m]'{}\n", kAxes[k], "xyz"[i], k == 2 ? " rotate by 90" : "");
-    }
-    script += "set key at screen " + fmt::format("{:.4f}, {:.4f}", area.right, area.top + 0.02) +
-              " right bottom Left reverse horizontal\n";
-    script += (is_3d ? "splot " : "plot ") + lines + "\n";
-    end_panel();
-  }
-
   const RunResult& result_;
   const World& world_;
   std::vector<Curve> curves_;
+  detail::PathPanel paths_;
+  detail::PoseStrip strip_;
   std::vector<std::vector<Quantity>> quantities_;  // of each body that is drawn
   std::size_t body_count_ = 0;
   std::size_t state_count_ = 0;
   std::size_t columns_ = 1;
   bool prints_title_ = true;
-  std::array<Range, 3> extents_;
-  std::vector<int> kept_;
   Figure figure_;
 };
 

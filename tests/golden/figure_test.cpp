@@ -1,6 +1,9 @@
 #include <gtest/gtest.h>
 #include <stdlib.h>
 
+#include <algorithm>
+#include <sstream>
+
 #include "program.hpp"
 
 namespace trajet {
@@ -56,6 +59,88 @@ TEST(Figure, LeavesOutWhatDoesNotMove) {
   const std::string plane = words(figure({"run", kExamples + "notes/rifle_shot.toml"}));
   EXPECT_NE(plane.find("z [m]"), std::string::npos);
   EXPECT_EQ(plane.find("y [m]"), std::string::npos);
+}
+
+/// Each `<polygon fill = 'COLOR' … points = 'x,y …'/>` of an SVG.
+struct Polygon {
+  std::string fill;
+  double left = 1e9, right = -1e9, bottom = -1e9;  // pixels
+};
+std::vector<Polygon> polygons(const std::string& svg) {
+  std::vector<Polygon> found;
+  for (std::size_t at = svg.find("<polygon"); at != std::string::npos; at = svg.find("<polygon", at + 1)) {
+    const auto value = [&](const std::string& name) {
+      const std::size_t begin = svg.find('\'', svg.find(name, at)) + 1;
+      return svg.substr(begin, svg.find('\'', begin) - begin);
+    };
+    Polygon polygon{value("fill")};
+    std::istringstream points(value("points"));
+    for (double x = 0, y = 0, comma = 0; points >> x && points.get() == ',' && points >> y; comma = y) {
+      polygon.left = std::min(polygon.left, x);
+      polygon.right = std::max(polygon.right, x);
+      polygon.bottom = std::max(polygon.bottom, comma);
+    }
+    found.push_back(polygon);
+  }
+  return found;
+}
+
+/// How wide the solids of the strip of poses are, from the first to the last.
+std::vector<double> widths_of_strip(const std::string& svg, std::size_t count) {
+  const std::vector<Polygon> all = polygons(svg);
+  double bottom = 0.0, width = 0.0;
+  for (const Polygon& polygon : all) {
+    bottom = std::max(bottom, polygon.bottom);
+    width = std::max(width, polygon.right);
+  }
+  std::vector<double> left(count, 1e9), right(count, -1e9);
+  for (const Polygon& polygon : all) {
+    if (polygon.bottom < bottom - 110.0) continue;  // that of the paths
+    const double middle = 0.5 * (polygon.left + polygon.right);
+    const auto cell =
+        std::min(static_cast<std::size_t>((middle - 24.0) / (1120.0 - 48.0) * static_cast<double>(count)), count - 1);
+    left[cell] = std::min(left[cell], polygon.left);
+    right[cell] = std::max(right[cell], polygon.right);
+  }
+  for (std::size_t i = 0; i < count; ++i) right[i] -= left[i];
+  return right;
+}
+
+TEST(Figure, ShowsHowSolidsStandAndThatEulersBallGrows) {
+  const std::string scene = kExamples + "notes/soccer_ball.toml";
+  const std::string text = words(figure({"run", scene}));
+  for (const char* label : {"ball, seen from its centre", "0 s", "5 s", "10 s"})
+    EXPECT_NE(text.find(label), std::string::npos) << label;
+  // |q|^2 = 1.2832^2 times as large after 10 s (F99); the outline of the turning polyhedron is a circle to 8 %
+  const std::vector<double> grown = widths_of_strip(figure({"run", scene}), 11);
+  EXPECT_NEAR(grown.back() / grown.front(), 1.2832 * 1.2832, 0.15);
+  const std::vector<double> kept =
+      widths_of_strip(figure({"run", scene, "--orientation", "quaternion-normalized"}), 11);
+  EXPECT_NEAR(kept.back() / kept.front(), 1.0, 0.09);
+}
+
+TEST(Figure, ShowsWhatIsHit) {
+  constexpr const char* kObstacle = "rgb(138, 138, 128)";
+  EXPECT_GE(count(figure({"run", kExamples + "notes/rifle_shot.toml"}), kObstacle), 2) << "target and ground, edge on";
+  const auto obstacles = [](const std::string& svg) {  // in space they are transparent
+    return count(svg, "fill-opacity = '0.500000'");
+  };
+  EXPECT_EQ(obstacles(figure({"run", kExamples + "notes/cube.toml"})), 6 + 1) << "the cube's faces, the ground";
+  EXPECT_EQ(obstacles(figure({"run", kExamples + "free_kick.toml"})), 4 * 6 + 1 + 1)
+      << "the players, the goal, the ground";
+}
+
+TEST(Figure, OfAVectorThatTurnsHasItInBlueThenInRed) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write(
+      "v.toml",
+      "[time]\nend = 1\n[[body]]\nname = \"b\"\nangular_velocity = [0, 0, \"pi/2\"]\npoints = { v = [1, 1, 1] }\n");
+  const std::string svg = figure({"run", scene});
+  EXPECT_GE(count(svg, "stroke='rgb(  0,  80, 200)'"), 1);
+  EXPECT_GE(count(svg, "stroke='rgb(208,  16,  16)'"), 1);
+  EXPECT_NE(words(svg).find("axis of rotation"), std::string::npos);
+  // before it turns
+  EXPECT_EQ(count(figure({"run", scene, "--end", "0 s"}), "stroke='rgb(208,  16,  16)'"), 0);
 }
 
 TEST(Figure, OfStatesAndManyBodies) {

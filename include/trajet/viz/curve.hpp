@@ -13,8 +13,9 @@ struct Curve {
   std::vector<std::vector<double>> rates;   // and its derivative in time, that of the Segment
 };
 
-/// The motion of a group of a World, with points close enough for a line to look smooth where the motion is, at least
-/// one on each piece unless these are too short to be seen, and two at each jump of the state or its rate.
+/// The motion of a group of a World, with as many points as a line needs to look smooth in whatever figures draw of it:
+/// positions, velocities, accelerations, angular velocities, extra states. Both sides of a jump that can be seen are
+/// among them. Orientations are not drawn against time: `poses_at` has them.
 Curve make_curve(const MotionRecord& record, int group);
 
 }  // namespace trajet

@@ -1,0 +1,98 @@
+#include "obstacle_faces.hpp"
+
+#include <cmath>
+#include <utility>
+#include <variant>
+
+namespace trajet::detail {
+
+namespace {
+
+constexpr int kCircleSides = 48;
+/// An obstacle that is this much larger than the motion does not set the picture's size.
+constexpr double kLargestObstacle = 3.0;
+/// A plane across an axis is near if it is this far from the motion, against the motion's extent along the axis.
+constexpr double kNearPlane = 1.2;
+
+/// What of a polygon lies within a box [Sutherland and Hodgman 1974].
+std::vector<Vector3> clip(std::vector<Vector3> polygon, const Eigen::AlignedBox3d& box) {
+  for (int axis = 0; axis < 3; ++axis)
+    for (const double side : {-1.0, 1.0}) {
+      const double bound = side < 0.0 ? box.min()[axis] : box.max()[axis];
+      const double tolerance = 1e-9 * box.sizes().maxCoeff();
+      const auto outside = [&](const Vector3& p) { return side * (p[axis] - bound) - tolerance; };
+      std::vector<Vector3> inside;
+      for (std::size_t i = 0; i < polygon.size(); ++i) {
+        const Vector3 &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
+        const double at_a = outside(a), at_b = outside(b);
+        if (at_a <= 0.0) inside.push_back(a);
+        if ((at_a <= 0.0) != (at_b <= 0.0)) inside.push_back(a + (at_a / (at_a - at_b)) * (b - a));
+      }
+      polygon = std::move(inside);
+    }
+  return polygon;
+}
+
+std::vector<Face> whole_faces(const Shape& shape, const Eigen::AlignedBox3d& box) {
+  if (const auto* plane = std::get_if<Plane>(&shape)) {
+    const Vector3 center = box.center() - plane->normal.dot(box.center() - plane->point) * plane->normal;
+    const double size = 2.0 * box.sizes().norm();
+    return {face(make_rectangle(center, plane->normal, plane->normal.unitOrthogonal(), size, size))};
+  }
+  if (const auto* disk = std::get_if<Disk>(&shape)) return {face(*disk, kCircleSides)};
+  if (const auto* rectangle = std::get_if<Rectangle>(&shape)) return {face(*rectangle)};
+  if (const auto* triangle = std::get_if<Triangle>(&shape)) return {face(*triangle)};
+  if (const auto* cuboid = std::get_if<Box>(&shape)) {
+    const auto sides = faces(*cuboid);
+    return {sides.begin(), sides.end()};
+  }
+  return {};
+}
+
+Eigen::AlignedBox3d box_of(const Shape& shape, const Eigen::AlignedBox3d& motion) {
+  Eigen::AlignedBox3d box;
+  for (const Face& face : whole_faces(shape, motion))
+    for (const Vector3& corner : face.corners) box.extend(corner);
+  if (const auto* ball = std::get_if<Sphere>(&shape)) {
+    box.extend(Vector3(ball->center.array() - ball->radius));
+    box.extend(Vector3(ball->center.array() + ball->radius));
+  }
+  return box;
+}
+
+}  // namespace
+
+std::vector<Face> obstacle_faces(const Shape& shape, const Eigen::AlignedBox3d& box) {
+  std::vector<Face> result;
+  for (Face& each : whole_faces(shape, box)) {
+    each.corners = clip(std::move(each.corners), box);
+    if (!each.corners.empty()) result.push_back(std::move(each));
+  }
+  return result;
+}
+
+Eigen::AlignedBox3d with_obstacles(const Eigen::AlignedBox3d& motion, const std::vector<World::Obstacle>& obstacles) {
+  Eigen::AlignedBox3d box = motion;
+  const double size = motion.sizes().maxCoeff();
+  for (const World::Obstacle& obstacle : obstacles) {
+    if (std::holds_alternative<Plane>(obstacle.shape)) continue;
+    const Eigen::AlignedBox3d around = box_of(obstacle.shape, motion);
+    if (around.sizes().maxCoeff() <= kLargestObstacle * size) box.extend(around);
+  }
+  const Eigen::AlignedBox3d without_planes = box;
+  for (const World::Obstacle& obstacle : obstacles) {
+    const auto* plane = std::get_if<Plane>(&obstacle.shape);
+    if (plane == nullptr) continue;
+    for (int axis = 0; axis < 3; ++axis) {
+      const Vector3 along = Vector3::Unit(axis);
+      if (plane->normal.cross(along).norm() > 1e-12) continue;
+      const double at = plane->point[axis], extent = without_planes.sizes()[axis];
+      const double distance = std::max(without_planes.min()[axis] - at, at - without_planes.max()[axis]);
+      if (distance > 0.0 && distance <= kNearPlane * extent)
+        box.extend(Vector3(without_planes.center() + (at - without_planes.center()[axis]) * along));
+    }
+  }
+  return box;
+}
+
+}  // namespace trajet::detail

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "drawing.hpp"
+#include "plot_panel.hpp"
+#include "trajet/sim/motion_record.hpp"
+#include "trajet/sim/run_result.hpp"
+#include "trajet/viz/curve.hpp"
+#include "trajet/viz/gnuplot.hpp"
+
+namespace trajet::detail {
+
+/// The colour of a body, by its index.
+Color body_color(std::size_t body);
+
+/// The panel of a run's figure that shows where everything went: the paths, the solids as they stood, the obstacles,
+/// the impacts. In space, or where all points move in one plane of the axes, in that plane.
+///
+/// What only turns about a fixed centre stands as at the end, in red, over its start in blue where it has no extent,
+/// with its axis of rotation in black and the ways of those of its named points that the eye can follow.
+class PathPanel {
+ public:
+  /// `curves`: of each group. All arguments outlive the panel.
+  PathPanel(const RunResult& result, const MotionRecord& record, const std::vector<Curve>& curves);
+
+  /// Nothing moves, or on a line alone.
+  bool is_empty() const { return !is_in_space_ && kept_.size() < 2; }
+  bool is_in_space() const { return is_in_space_; }
+  std::string script(const Frame& frame, const FigureSize& size) const;
+
+ private:
+  const Curve& curve(const World::Body& body) const { return curves_[static_cast<std::size_t>(body.group)]; }
+  std::vector<Vector3> path(const World::Body& body) const;
+  std::vector<Vector3> way_of(const World::Body& body, const World::Point& point) const;
+  /// A turning body that has something to show.
+  bool is_turning_solid(const World::Body& body) const;
+  bool stays(const World::Body& body) const;
+  std::string space_script(const Frame& frame, const FigureSize& size) const;
+  std::string plane_script(const Frame& frame) const;
+
+  const RunResult& result_;
+  const MotionRecord& record_;
+  const World& world_;
+  const std::vector<Curve>& curves_;
+  std::vector<int> kept_;  // the coordinates that change
+  bool is_in_space_ = false;
+};
+
+}  // namespace trajet::detail

@@ -1,0 +1,116 @@
+#include "space_axes.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace trajet::detail {
+
+namespace {
+
+/// Room for the numbers and names of the axes, in pixels.
+constexpr double kLeft = 90.0, kRight = 76.0, kBottom = 58.0, kTop = 12.0;
+
+std::vector<Vector3> corners(const Eigen::AlignedBox3d& box) {
+  std::vector<Vector3> result;
+  for (int i = 0; i < 8; ++i) result.emplace_back(box.corner(static_cast<Eigen::AlignedBox3d::CornerType>(i)));
+  return result;
+}
+
+/// 1, 2 or 5 times a power of ten, at least `least`.
+double round_step(double least) {
+  const double power = std::pow(10.0, std::floor(std::log10(least)));
+  for (const double factor : {1.0, 2.0, 5.0})
+    if (factor * power >= least) return factor * power;
+  return 10.0 * power;
+}
+
+/// The marks of an axis, `spacing` pixels apart or more; `least`, where there would be no two of them.
+std::vector<double> marks(double low, double high, double pixels, double spacing, double least) {
+  std::vector<double> values;
+  const double step = round_step((high - low) * spacing / std::max(pixels, 1.0));
+  for (double k = std::ceil(low / step); k * step <= high; ++k) values.push_back(k * step);
+  return values.size() < 2 && spacing > least ? marks(low, high, pixels, std::max(0.7 * spacing, least), least)
+                                              : values;
+}
+
+/// Numbers the labels of one panel; 1 and 2 are those of the figure's title.
+class Labels {
+ public:
+  explicit Labels(SpaceAxes& axes) : axes_(axes) {}
+
+  void add(const std::string& text, const Vector2& at, const std::string& style) {
+    axes_.labels += fmt::format("set label {} {} at first {:.1f},{:.1f} {}\n", number_, text, at.x(), at.y(), style);
+    axes_.end_labels += fmt::format("unset label {}\n", number_++);
+  }
+  void add(double value, const Vector2& at, const std::string& style) {
+    add(fmt::format("'{:.6g}'", value == 0.0 ? 0.0 : value), at, style);
+  }
+
+ private:
+  SpaceAxes& axes_;
+  int number_ = 10;
+};
+
+}  // namespace
+
+View fit(const Eigen::AlignedBox3d& box, bool one_scale, const Vector2& size) {
+  // without one scale: a box somewhat lower than wide
+  const Vector3 shape(1.0, 1.0, 0.9);
+  const auto picture = [&](const Vector3& scale) {
+    Eigen::AlignedBox2d rectangle;
+    for (const Vector3& corner : corners(box)) rectangle.extend(Camera(scale).project(corner));
+    return rectangle;
+  };
+  Vector3 scale = one_scale ? Vector3(Vector3::Ones()) : Vector3(shape.cwiseQuotient(box.sizes()));
+  const Vector2 room(size.x() - kLeft - kRight, size.y() - kBottom - kTop);
+  const Vector2 extent = picture(scale).sizes();
+  scale *= std::min(room.x() / extent.x(), room.y() / extent.y());
+  return {Camera(scale), Vector2(kLeft, kBottom) + 0.5 * room - picture(scale).center()};
+}
+
+SpaceAxes space_axes(const Eigen::AlignedBox3d& box, const View& view) {
+  SpaceAxes result;
+  Labels labels(result);
+  const Vector3 &low = box.min(), &high = box.max();
+  const auto at = [&](double x, double y, double z) { return view.pixels({x, y, z}); };
+  const auto length = [&](int axis) {
+    Vector3 end = low;
+    end[axis] = high[axis];
+    return (view.pixels(end) - view.pixels(low)).norm();
+  };
+  result.floor.push_back({at(low.x(), low.y(), low.z()), at(high.x(), low.y(), low.z()),
+                          at(high.x(), high.y(), low.z()), at(low.x(), high.y(), low.z()),
+                          at(low.x(), low.y(), low.z())});
+
+  // x: along the front
+  for (const double x : marks(low.x(), high.x(), length(0), 46.0, 32.0)) {
+    result.floor.push_back({at(x, low.y(), low.z()), at(x, high.y(), low.z())});
+    result.walls.push_back({at(x, high.y(), low.z()), at(x, high.y(), high.z())});
+    labels.add(x, at(x, low.y(), low.z()) + Vector2(-6.0, -13.0), "center");
+  }
+  labels.add("'x [m]'", at(0.5 * (low.x() + high.x()), low.y(), low.z()) + Vector2(-24.0, -38.0), "center");
+  // y: along the right
+  for (const double y : marks(low.y(), high.y(), length(1), 34.0, 30.0)) {
+    result.floor.push_back({at(low.x(), y, low.z()), at(high.x(), y, low.z())});
+    result.walls.push_back({at(low.x(), y, low.z()), at(low.x(), y, high.z())});
+    labels.add(y, at(high.x(), y, low.z()) + Vector2(8.0, -7.0), "left");
+  }
+  labels.add("'y [m]'", at(high.x(), 0.5 * (low.y() + high.y()), low.z()) + Vector2(32.0, -26.0), "left");
+  // z: on the left
+  for (const double z : marks(low.z(), high.z(), length(2), 28.0, 17.0)) {
+    result.walls.push_back({at(low.x(), low.y(), z), at(low.x(), high.y(), z), at(high.x(), high.y(), z)});
+    labels.add(z, at(low.x(), low.y(), z) + Vector2(-9.0, 0.0), "right");
+    result.axes.push_back({at(low.x(), low.y(), z), at(low.x(), low.y(), z) + Vector2(-5.0, 0.0)});
+  }
+  labels.add("'z [m]'", at(low.x(), low.y(), 0.5 * (low.z() + high.z())) + Vector2(-76.0, 0.0), "center rotate by 90");
+  result.walls.push_back({at(low.x(), low.y(), high.z()), at(low.x(), high.y(), high.z()),
+                          at(high.x(), high.y(), high.z()), at(high.x(), high.y(), low.z())});
+  result.walls.push_back({at(low.x(), high.y(), low.z()), at(low.x(), high.y(), high.z())});
+  result.axes.push_back({at(low.x(), low.y(), high.z()), at(low.x(), low.y(), low.z()), at(high.x(), low.y(), low.z()),
+                         at(high.x(), high.y(), low.z())});
+  return result;
+}
+
+}  // namespace trajet::detail
