@@ -20,6 +20,7 @@ namespace {
 
 using detail::GltfMesh;
 using detail::Pose;
+using detail::Tint;
 using Value = tinygltf::Value;
 
 Value value(const Vector3& v) { return Value(Value::Array{Value(v.x()), Value(v.y()), Value(v.z())}); }
@@ -47,6 +48,20 @@ constexpr std::array<std::array<double, 3>, 6> kBodyColors{{{0.0, 0.168, 0.445},
                                                             {0.665, 0.112, 0.0},
                                                             {0.093, 0.456, 0.815}}};
 constexpr std::array<double, 3> kObstacleColor{0.35, 0.38, 0.42};
+constexpr std::array<double, 3> kLightColor{0.9, 0.9, 0.87};
+constexpr std::array<double, 3> kDarkColor{0.012, 0.012, 0.016};
+
+std::array<double, 3> tinted(const std::array<double, 3>& own, Tint tint) {
+  switch (tint) {
+    case Tint::own:
+      return own;
+    case Tint::light:
+      return kLightColor;
+    case Tint::dark:
+      return kDarkColor;
+  }
+  return own;
+}
 
 /// Builds the model: everything lies in one buffer, each accessor in a view of its own.
 class ModelBuilder {
@@ -58,32 +73,36 @@ class ModelBuilder {
   }
 
   int add_mesh(const std::string& name, const GltfMesh& data, const std::array<double, 3>& color) {
-    tinygltf::Material material;
-    material.name = name;
-    material.pbrMetallicRoughness.baseColorFactor = {color[0], color[1], color[2], 1.0};
-    material.pbrMetallicRoughness.metallicFactor = 0.0;
-    material.pbrMetallicRoughness.roughnessFactor = 0.7;
-    material.doubleSided = true;
-    tinygltf::Primitive primitive;
-    primitive.mode = TINYGLTF_MODE_TRIANGLES;
-    primitive.attributes["POSITION"] = add_floats(data.positions, TINYGLTF_TARGET_ARRAY_BUFFER);
-    primitive.attributes["NORMAL"] = add_floats(data.normals, TINYGLTF_TARGET_ARRAY_BUFFER);
-    primitive.indices = add_accessor(data.indices.data(), data.indices.size(), TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT,
-                                     TINYGLTF_TYPE_SCALAR, TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER);
-    primitive.material = append(model_.materials, std::move(material));
     tinygltf::Mesh mesh;
     mesh.name = name;
-    mesh.primitives.push_back(std::move(primitive));
+    const int positions = add_floats(data.positions, TINYGLTF_TARGET_ARRAY_BUFFER);
+    const int normals = add_floats(data.normals, TINYGLTF_TARGET_ARRAY_BUFFER);
+    for (const auto& [tint, triangles] : data.triangles) {
+      tinygltf::Primitive primitive;
+      primitive.mode = TINYGLTF_MODE_TRIANGLES;
+      primitive.attributes["POSITION"] = positions;
+      primitive.attributes["NORMAL"] = normals;
+      primitive.indices = add_accessor(triangles.data(), triangles.size(), TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT,
+                                       TINYGLTF_TYPE_SCALAR, TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER);
+      primitive.material = add_material(name, tinted(color, tint));
+      mesh.primitives.push_back(std::move(primitive));
+    }
     return append(model_.meshes, std::move(mesh));
   }
 
-  /// A node below the root, which is the first.
-  int add_node(const std::string& name, int mesh) {
+  /// The node that all others stand under.
+  int add_root(const std::string& name) {
+    tinygltf::Node node;
+    node.name = name;
+    return append(model_.nodes, std::move(node));
+  }
+
+  int add_node(const std::string& name, int mesh, int parent) {
     tinygltf::Node node;
     node.name = name;
     node.mesh = mesh;
     const int index = append(model_.nodes, std::move(node));
-    if (index > 0) model_.nodes.front().children.push_back(index);
+    this->node(parent).children.push_back(index);
     return index;
   }
 
@@ -124,6 +143,16 @@ class ModelBuilder {
   static int append(std::vector<T>& items, T item) {
     items.push_back(std::move(item));
     return static_cast<int>(items.size()) - 1;
+  }
+
+  int add_material(const std::string& name, const std::array<double, 3>& color) {
+    tinygltf::Material material;
+    material.name = name;
+    material.pbrMetallicRoughness.baseColorFactor = {color[0], color[1], color[2], 1.0};
+    material.pbrMetallicRoughness.metallicFactor = 0.0;
+    material.pbrMetallicRoughness.roughnessFactor = 0.7;
+    material.doubleSided = true;
+    return append(model_.materials, std::move(material));
   }
 
   /// Columns of floats, with the least and the greatest of each component.
@@ -182,7 +211,7 @@ std::string gltf_binary(const MotionRecord& motion, const RunResult& result, dou
   const World& world = motion.world();
   const detail::Extent extent = detail::extent(motion);
   ModelBuilder builder;
-  const int root = builder.add_node("world", -1);
+  const int root = builder.add_root("world");
   // z up to y up: -90 degrees about x, (x, y, z) -> (x, z, -y)
   constexpr double kHalfSqrt2 = std::numbers::sqrt2 / 2.0;
   builder.node(root).rotation = {-kHalfSqrt2, 0.0, 0.0, kHalfSqrt2};
@@ -192,8 +221,15 @@ std::string gltf_binary(const MotionRecord& motion, const RunResult& result, dou
   for (std::size_t i = 0; i < world.bodies.size(); ++i) {
     const World::Body& body = world.bodies[i];
     const auto keys = detail::animation_keys(motion, result, body, fps);
-    const int node = builder.add_node(
-        body.name, builder.add_mesh(body.name, detail::body_mesh(body, extent), kBodyColors[i % kBodyColors.size()]));
+    const auto& color = kBodyColors[i % kBodyColors.size()];
+    const int node =
+        builder.add_node(body.name, builder.add_mesh(body.name, detail::body_mesh(body, extent), color), root);
+    if (!body.points.empty()) {
+      const int mesh = builder.add_mesh(body.name + ".points", detail::point_mesh(body, extent), color);
+      for (const World::Point& point : body.points)
+        builder.node(builder.add_node(body.name + "." + point.name, mesh, node)).translation = {
+            point.p_B.x(), point.p_B.y(), point.p_B.z()};
+    }
     if (keys.empty()) continue;
     const Pose& first = keys.begin()->second;
     builder.node(node).translation = {first.position.x(), first.position.y(), first.position.z()};
@@ -203,7 +239,8 @@ std::string gltf_binary(const MotionRecord& motion, const RunResult& result, dou
   }
   for (const World::Obstacle& obstacle : world.obstacles)
     builder.add_node(obstacle.name,
-                     builder.add_mesh(obstacle.name, detail::obstacle_mesh(obstacle.shape, extent), kObstacleColor));
+                     builder.add_mesh(obstacle.name, detail::obstacle_mesh(obstacle.shape, extent), kObstacleColor),
+                     root);
   return builder.write(result.title);
 }
 

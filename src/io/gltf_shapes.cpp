@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <span>
 
@@ -15,21 +16,88 @@ using std::numbers::pi;
 
 /// An obstacle that is this much larger than the motion does not set the picture's size.
 constexpr double kLargestObstacle = 3.0;
-/// The radius of a point, and half the side of a plane, against the size of the motion.
+/// The radius of a point against the size of the motion, and at most against the smallest obstacle.
 constexpr double kPointRadius = 0.01;
+constexpr double kPointOfObstacle = 0.5;
+/// Half the side of a plane, against the size of the motion.
 constexpr double kPlaneHalf = 0.75;
+/// Of the rods and balls that stand for named points, against how far the body reaches.
+constexpr double kRodRadius = 0.035;
+constexpr double kNamedPointRadius = 0.05;
+/// Planes of pentagons are 0.939 of the corners' radius away from a soccer ball's centre, those of hexagons 0.915.
+constexpr double kPentagonDistance = 0.927;
 /// Sides of what stands for a circle.
 constexpr int kCircleSides = 48;
 
 /// A flat convex polygon, corners counterclockwise from where its normal points to.
-void add_polygon(GltfMesh& mesh, std::span<const Vector3> corners, const Vector3& normal) {
+void add_polygon(GltfMesh& mesh, std::span<const Vector3> corners, const Vector3& normal, Tint tint = Tint::own) {
   const auto first = static_cast<std::uint32_t>(mesh.positions.size());
   for (const Vector3& corner : corners) {
     mesh.positions.push_back(corner.cast<float>());
     mesh.normals.push_back(normal.cast<float>());
   }
+  auto& triangles = mesh.triangles[tint];
   for (std::uint32_t i = 2; i < corners.size(); ++i)
-    mesh.indices.insert(mesh.indices.end(), {first, first + i - 1, first + i});
+    triangles.insert(triangles.end(), {first, first + i - 1, first + i});
+}
+
+/// A ball of `radius` around the origin. With `shows_spin` every other octant is light.
+GltfMesh ball_mesh(double radius, bool shows_spin) {
+  constexpr int kRings = kCircleSides / 2;
+  GltfMesh mesh;
+  for (int i = 0; i <= kRings; ++i)
+    for (int j = 0; j <= kCircleSides; ++j) {
+      const double polar = pi * i / kRings;
+      const double azimuth = 2.0 * pi * j / kCircleSides;
+      const Vector3 normal(std::sin(polar) * std::cos(azimuth), std::sin(polar) * std::sin(azimuth), std::cos(polar));
+      mesh.positions.push_back((radius * normal).cast<float>());
+      mesh.normals.push_back(normal.cast<float>());
+    }
+  const auto index = [](int i, int j) { return static_cast<std::uint32_t>(i * (kCircleSides + 1) + j); };
+  for (int i = 0; i < kRings; ++i)
+    for (int j = 0; j < kCircleSides; ++j) {
+      const int octant = i / (kRings / 2) + j / (kCircleSides / 4);
+      auto& triangles = mesh.triangles[shows_spin && octant % 2 == 0 ? Tint::light : Tint::own];
+      // at the poles one of the two triangles has no area
+      if (i > 0) triangles.insert(triangles.end(), {index(i, j), index(i + 1, j), index(i, j + 1)});
+      if (i < kRings - 1) triangles.insert(triangles.end(), {index(i, j + 1), index(i + 1, j), index(i + 1, j + 1)});
+    }
+  return mesh;
+}
+
+/// Adds the faces of another mesh.
+void add(GltfMesh& mesh, const GltfMesh& other) {
+  const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+  mesh.positions.insert(mesh.positions.end(), other.positions.begin(), other.positions.end());
+  mesh.normals.insert(mesh.normals.end(), other.normals.begin(), other.normals.end());
+  for (const auto& [tint, triangles] : other.triangles)
+    for (const std::uint32_t index : triangles) mesh.triangles[tint].push_back(first + index);
+}
+
+/// The side of a cylinder from the origin to `end`.
+GltfMesh rod_mesh(const Vector3& end, double radius) {
+  const Vector3 u = end.unitOrthogonal();
+  const Vector3 v = end.normalized().cross(u);
+  GltfMesh mesh;
+  for (int j = 0; j <= kCircleSides; ++j) {
+    const double angle = 2.0 * pi * j / kCircleSides;
+    const Vector3 normal = std::cos(angle) * u + std::sin(angle) * v;
+    for (const Vector3& foot : {Vector3(Vector3::Zero()), end}) {
+      mesh.positions.push_back((foot + radius * normal).cast<float>());
+      mesh.normals.push_back(normal.cast<float>());
+    }
+  }
+  auto& triangles = mesh.triangles[Tint::own];
+  for (std::uint32_t k = 0; k < 2 * kCircleSides; k += 2)
+    triangles.insert(triangles.end(), {k, k + 2, k + 1, k + 1, k + 2, k + 3});
+  return mesh;
+}
+
+/// How far a body with its named points reaches from its origin.
+double reach(const World::Body& body) {
+  double farthest = body.radius;
+  for (const World::Point& point : body.points) farthest = std::max(farthest, point.p_B.norm());
+  return farthest;
 }
 
 GltfMesh polygon_mesh(const Face& polygon) {
@@ -56,7 +124,7 @@ GltfMesh mesh_of(const Rectangle& rectangle, const Extent&) { return polygon_mes
 
 GltfMesh mesh_of(const Triangle& triangle, const Extent&) { return polygon_mesh(face(triangle)); }
 
-GltfMesh mesh_of(const Sphere& sphere, const Extent&) { return moved(ball_mesh(sphere.radius), sphere.center); }
+GltfMesh mesh_of(const Sphere& sphere, const Extent&) { return moved(ball_mesh(sphere.radius, false), sphere.center); }
 
 GltfMesh mesh_of(const Box& box, const Extent&) {
   GltfMesh mesh;
@@ -66,37 +134,29 @@ GltfMesh mesh_of(const Box& box, const Extent&) {
 
 }  // namespace
 
-GltfMesh ball_mesh(double radius) {
-  constexpr int kRings = kCircleSides / 2;
-  GltfMesh mesh;
-  for (int i = 0; i <= kRings; ++i)
-    for (int j = 0; j <= kCircleSides; ++j) {
-      const double polar = pi * i / kRings;
-      const double azimuth = 2.0 * pi * j / kCircleSides;
-      const Vector3 normal(std::sin(polar) * std::cos(azimuth), std::sin(polar) * std::sin(azimuth), std::cos(polar));
-      mesh.positions.push_back((radius * normal).cast<float>());
-      mesh.normals.push_back(normal.cast<float>());
-    }
-  const auto index = [](int i, int j) { return static_cast<std::uint32_t>(i * (kCircleSides + 1) + j); };
-  for (int i = 0; i < kRings; ++i)
-    for (int j = 0; j < kCircleSides; ++j) {
-      // at the poles one of the two triangles has no area
-      if (i > 0) mesh.indices.insert(mesh.indices.end(), {index(i, j), index(i + 1, j), index(i, j + 1)});
-      if (i < kRings - 1)
-        mesh.indices.insert(mesh.indices.end(), {index(i, j + 1), index(i + 1, j), index(i + 1, j + 1)});
-    }
-  return mesh;
-}
-
 GltfMesh body_mesh(const World::Body& body, const Extent& extent) {
   GltfMesh mesh;
   for (const auto& triangle : body.surface.triangles) {
     Vector3 corners[3];
     for (std::size_t i = 0; i < 3; ++i) corners[i] = body.surface.vertices[static_cast<std::size_t>(triangle[i])];
-    add_polygon(mesh, corners, (corners[1] - corners[0]).cross(corners[2] - corners[0]).normalized());
+    const Vector3 normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]).normalized();
+    Tint tint = Tint::own;
+    if (body.shape == "soccer-ball")
+      tint = normal.dot(corners[0]) > kPentagonDistance * body.radius ? Tint::dark : Tint::light;
+    add_polygon(mesh, corners, normal, tint);
   }
   if (!mesh.positions.empty()) return mesh;
-  return ball_mesh(body.radius > 0.0 && body.is_ball ? body.radius : kPointRadius * extent.size);
+  if (body.radius > 0.0) return ball_mesh(body.radius, body.rotation.has_value());
+  const double size = reach(body);
+  if (size == 0.0) return ball_mesh(extent.point_radius, false);
+  mesh = ball_mesh(kRodRadius * size, false);
+  for (const World::Point& point : body.points)
+    if (point.p_B.norm() > 0.0) add(mesh, rod_mesh(point.p_B, kRodRadius * size));
+  return mesh;
+}
+
+GltfMesh point_mesh(const World::Body& body, const Extent& extent) {
+  return ball_mesh(reach(body) > 0.0 ? kNamedPointRadius * reach(body) : extent.point_radius, false);
 }
 
 GltfMesh obstacle_mesh(const Shape& shape, const Extent& extent) {
@@ -106,6 +166,10 @@ GltfMesh obstacle_mesh(const Shape& shape, const Extent& extent) {
 Extent extent(const MotionRecord& motion) {
   const World& world = motion.world();
   Eigen::AlignedBox3d box;
+  const auto extend = [&](const Vector3& center, double radius) {
+    box.extend(Vector3(center.array() - radius));
+    box.extend(Vector3(center.array() + radius));
+  };
   for (const World::Body& body : world.bodies)
     for (const MotionRecord::Piece& piece : motion.pieces(body.group)) {
       // enough points that no bend of a long piece is missed
@@ -113,24 +177,24 @@ Extent extent(const MotionRecord& motion) {
       for (int i = 0; i <= kParts; ++i) {
         const double t = piece.from + (piece.to - piece.from) * i / kParts;
         const auto at = [&](int axis) { return piece.segment.value(body.offset + axis, t); };
-        box.extend(Vector3(at(0), at(1), at(2)));
+        extend({at(0), at(1), at(2)}, reach(body));
       }
     }
-  if (box.isEmpty()) return {Vector3::Zero(), 1.0};
+  if (box.isEmpty()) box.extend(Vector3(Vector3::Zero()));
   const double motion_size = box.sizes().maxCoeff();
+  double smallest_obstacle = std::numeric_limits<double>::infinity();
   for (const World::Obstacle& obstacle : world.obstacles)
     std::visit(
         [&](const auto& shape) {
           if constexpr (requires { bounding_ball(shape); }) {
             const BoundingBall ball = bounding_ball(shape);
-            if (2.0 * ball.radius > kLargestObstacle * motion_size) return;
-            box.extend(Vector3(ball.center.array() - ball.radius));
-            box.extend(Vector3(ball.center.array() + ball.radius));
+            smallest_obstacle = std::min(smallest_obstacle, ball.radius);
+            if (2.0 * ball.radius <= kLargestObstacle * motion_size) extend(ball.center, ball.radius);
           }
         },
         obstacle.shape);
-  const double size = box.sizes().maxCoeff();
-  return {box.center(), size > 0.0 ? size : 1.0};
+  const double size = box.sizes().maxCoeff() > 0.0 ? box.sizes().maxCoeff() : 1.0;
+  return {box.center(), size, std::min(kPointRadius * size, kPointOfObstacle * smallest_obstacle)};
 }
 
 }  // namespace trajet::detail

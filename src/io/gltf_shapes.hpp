@@ -2,30 +2,36 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <map>
 #include <vector>
 
 #include "trajet/sim/motion_record.hpp"
 
 namespace trajet::detail {
 
+/// How a part of a surface is coloured: as its body, or so that one sees the body turn.
+enum class Tint { own, light, dark };
+
 /// Triangles with normals, as graphics hardware takes them.
 struct GltfMesh {
   std::vector<Eigen::Vector3f> positions;  ///< m
   std::vector<Eigen::Vector3f> normals;    ///< unit, one per position
-  std::vector<std::uint32_t> indices;      ///< three per triangle, counterclockwise from outside
+  /// Indices of three positions per triangle, counterclockwise from outside.
+  std::map<Tint, std::vector<std::uint32_t>> triangles;
 };
 
-/// What a run spans: all positions of its bodies, and the obstacles that are not much larger.
+/// What a run spans: its bodies wherever they come, and the obstacles that are not much larger.
 struct Extent {
   Vector3 center;
-  double size;  ///< m, of the longest side of the box around it; > 0
+  double size;          ///< m, of the longest side of the box around it; > 0
+  double point_radius;  ///< m; the size of a ball that stands for a point: one can see it, and what it meets
 };
 Extent extent(const MotionRecord& motion);
 
-/// A ball of `radius` around the origin.
-GltfMesh ball_mesh(double radius);
-/// A body in its own frame. A point is a small ball, so that it can be seen.
+/// A body in its own frame. A point is a small ball, so that it can be seen; if it has named points, rods lead to them.
 GltfMesh body_mesh(const World::Body& body, const Extent& extent);
+/// A ball that stands for a named point of the body.
+GltfMesh point_mesh(const World::Body& body, const Extent& extent);
 /// An obstacle in the world. A plane is drawn as large as what lies on it.
 GltfMesh obstacle_mesh(const Shape& shape, const Extent& extent);
 

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cstring>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "scene_run.hpp"
@@ -29,6 +30,10 @@ class Glb {
     for (const Json& each : json["nodes"])
       if (each["name"] == name) return each;
     throw std::out_of_range("no node '" + name + "'");
+  }
+
+  const Json& primitives(const std::string& name) const {
+    return json["meshes"][node(name)["mesh"].get<std::size_t>()]["primitives"];
   }
 
   /// The floats of an accessor, one row per item.
@@ -182,6 +187,72 @@ angular_velocity = [0, 0, 2]
     EXPECT_NEAR(keys.positions[i][2], sign * std::sin(t), 5e-7) << t;
     EXPECT_NEAR(keys.positions[i][3], sign * std::cos(t), 5e-7) << t;
   }
+}
+
+TEST(Gltf, NamedPointsAreNodesOfTheirBody) {
+  const auto [result, glb] = animate(R"(
+[time]
+end = 1
+[[body]]
+name = "stick"
+inertia = [1, 1, 1]
+points = { left = [-0.3, 0, 0], right = [0.2, 0, 0.1] }
+)",
+                                     10.0);
+  const Json& body = glb.node("stick");
+  ASSERT_EQ(body["children"].size(), 2u);
+  EXPECT_EQ(glb.json["nodes"][body["children"][0].get<std::size_t>()], glb.node("stick.left"));
+  EXPECT_EQ(glb.node("stick.left")["translation"], Json({-0.3, 0.0, 0.0}));
+  EXPECT_EQ(glb.node("stick.right")["translation"], Json({0.2, 0.0, 0.1}));
+  // rods lead to the points, which stand out: the mesh of a point reaches farther across than a rod
+  const Json& rods = glb.json["accessors"][glb.primitives("stick")[0]["attributes"]["POSITION"].get<std::size_t>()];
+  const Json& point =
+      glb.json["accessors"][glb.primitives("stick.left")[0]["attributes"]["POSITION"].get<std::size_t>()];
+  EXPECT_NEAR(rods["min"][0], -0.3, 1e-7);
+  EXPECT_NEAR(rods["max"][0], 0.2, 0.01);
+  EXPECT_GT(point["max"][1], rods["max"][1]);
+  EXPECT_LT(point["max"][1], 0.05);
+}
+
+// The path is 100 m long: 1 % of it would hide what is hit.
+TEST(Gltf, APointIsSmallBesideWhatItMeets) {
+  const auto [result, glb] = animate(R"(
+[time]
+end = 1
+[[body]]
+name = "bullet"
+velocity = [100, 0, 0]
+[[obstacle]]
+name = "target"
+shape = "disk"
+center = [90, 0, 0]
+normal = [-1, 0, 0]
+radius = 0.2
+)",
+                                     10.0);
+  const Json& ball = glb.json["accessors"][glb.primitives("bullet")[0]["attributes"]["POSITION"].get<std::size_t>()];
+  EXPECT_NEAR(ball["max"][2], 0.1, 1e-7);
+}
+
+TEST(Gltf, ASoccerBallHasTwelveDarkPentagons) {
+  const auto [result, glb] = animate(R"(
+[time]
+end = 1
+[[body]]
+name = "ball"
+shape = "soccer-ball"
+radius = 0.11
+)",
+                                     10.0);
+  std::map<double, std::size_t> triangles_by_lightness;
+  for (const Json& primitive : glb.primitives("ball")) {
+    const Json& material = glb.json["materials"][primitive["material"].get<std::size_t>()];
+    triangles_by_lightness[material["pbrMetallicRoughness"]["baseColorFactor"][0]] +=
+        glb.json["accessors"][primitive["indices"].get<std::size_t>()]["count"].get<std::size_t>() / 3;
+  }
+  ASSERT_EQ(triangles_by_lightness.size(), 2u);
+  EXPECT_EQ(triangles_by_lightness.begin()->second, 12u * 3u);
+  EXPECT_EQ(triangles_by_lightness.rbegin()->second, 20u * 4u);
 }
 
 TEST(Gltf, TellsWhatAnEventHasSet) {

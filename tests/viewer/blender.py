@@ -6,11 +6,13 @@ glTF is y up; Blender's importer turns it back to z up, so that world positions 
 """
 
 import json
+import math
 import pathlib
 import subprocess
 import sys
 
 import bpy
+from mathutils import Quaternion
 
 SKIPPED = 77
 try:
@@ -24,29 +26,49 @@ if "bool" not in vars(numpy):
 FPS = 60
 # Ten times what was measured: single precision in the file and in Blender, of the coordinates.
 TOLERANCE = 2e-6
+# The importer turns the coordinates of every object, and with them its frame, from y up to z up.
+OBJECT_TO_BODY = Quaternion((1, 0, 0), math.radians(90))
 
 
-def position_at(scene, body, time):
+def go_to(scene, time):
     frame = time * scene.render.fps
     scene.frame_set(int(frame), subframe=frame - int(frame))
-    return bpy.data.objects[body].matrix_world.to_translation()
+
+
+def position_difference(name, expected):
+    """Relative to the coordinates (at least 1 m)."""
+    found = bpy.data.objects[name].matrix_world.to_translation()
+    size = max(1.0, *map(abs, expected))
+    return max(abs(a - b) / size for a, b in zip(found, expected))
+
+
+def rotation_difference(name, expected):
+    """Of unit quaternions, either sign of which is the same rotation."""
+    found = bpy.data.objects[name].matrix_world.to_quaternion() @ OBJECT_TO_BODY
+    expected = Quaternion(expected).normalized()
+    sign = 1 if found.dot(expected) > 0 else -1
+    return max(abs(sign * a - b) for a, b in zip(found, expected))
 
 
 def largest_difference(file, report):
-    """Over all poses, relative to the coordinates (at least 1 m), and how many there were."""
+    """Over all poses, and how many there were."""
     bpy.ops.wm.read_factory_settings(use_empty=True)
     scene = bpy.context.scene
     scene.render.fps = FPS
     bpy.ops.import_scene.gltf(filepath=str(file))
-    # the time of a rest is behind its position, which is that of the last bounce
-    poses = [(each["time"], each["body"], each["position"]) for each in report["impacts"] if each["kind"] != "rest"]
-    poses += [(report["end_time"], each["body"], each["position"]) for each in report["final"]]
-    largest = 0.0
-    for time, body, expected in poses:
-        found = position_at(scene, body, time - report["start_time"])
-        size = max(1.0, *map(abs, expected))
-        largest = max(largest, *(abs(a - b) / size for a, b in zip(found, expected)))
-    return largest, len(poses)
+    differences = []
+    for each in report["impacts"]:
+        if each["kind"] == "rest":
+            continue  # its time is behind its position, which is that of the last bounce
+        go_to(scene, each["time"] - report["start_time"])
+        differences.append(position_difference(each["body"], each["position"]))
+    go_to(scene, report["end_time"] - report["start_time"])
+    for each in report["final"]:
+        differences.append(position_difference(each["body"], each["position"]))
+        differences.append(rotation_difference(each["body"], each["orientation"]))
+        for point, state in each["points"].items():
+            differences.append(position_difference(f"{each['body']}.{point}", state["position"]))
+    return max(differences), len(differences)
 
 
 def main(program, folder, *scenes):
