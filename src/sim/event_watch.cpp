@@ -60,6 +60,10 @@ void EventWatch::search(const Segment<>& segment, double from) {
   const Path<Eigen::Dynamic> path(segment, inputs_);
   const ComposedFunction function(path, Function{&enclosures_, &inputs_, &state_}, from - segment.t0(),
                                   segment.duration(), std::exchange(at_zero_, 0.0));
+  if (sign_ == 0) {
+    const FunctionSample begin = function.at(function.begin());
+    if (std::abs(begin.jet.value) > begin.tolerance) sign_ = static_cast<int>(sign(begin.jet.value));
+  }
   visit_roots(function, [&](const Root& root) {
     if (root.kind == RootKind::unresolved) {
       next_ = {true, segment.t0() + root.time, 0.0, 0, true};
@@ -70,7 +74,8 @@ void EventWatch::search(const Segment<>& segment, double from) {
     const int after = root.sign_after;
     if (after == 0) return false;  // at the end of the Segment: the next one tells
     sign_ = after;
-    if (root.kind == RootKind::touch || before == 0 || before == after || !wanted(after)) return true;
+    const bool is_touch = root.kind == RootKind::touch && !root.at_begin;  // there the last Segment knows better
+    if (is_touch || before == 0 || before == after || !wanted(after)) return true;
     const double time = segment.t0() + root.time;
     next_ = {true, time, root.error_bound + 2.0 * kUnitRoundoff * std::abs(time), after, false};
     return false;

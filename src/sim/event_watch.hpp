@@ -15,9 +15,9 @@ namespace trajet {
 
 /// Looks out for the times at which a program of t and the state crosses zero along a motion.
 ///
-/// A crossing at the joint of two Segments counts once: the watch remembers the sign it has seen last. A start on zero,
-/// a touch, and a jump of the state across zero are no crossings. A motion that comes to zero where an impact or
-/// another event changes its state has crossed.
+/// A crossing at the joint of two Segments counts once: the watch remembers the sign it has seen last. A jump of the
+/// program across zero is a crossing. A start on zero, a touch, and a jump of the state across zero are none. A motion
+/// that comes to zero where an impact or another event changes its state has crossed.
 class EventWatch {
  public:
   struct Crossing {

@@ -46,8 +46,12 @@ void Motion::use_law() {
   for (std::size_t i = 0; i < resting_.size(); ++i) {
     const Pair& resting_pair = pair(resting_[i].pair);
     const Shape& shape = world_.obstacles[static_cast<std::size_t>(resting_pair.obstacle)].shape;
-    for (const Program& condition : release_conditions(group().law, shape, resting_[i]))
-      release_watches_.push_back({static_cast<int>(i), EventWatch(condition, CrossingDirection::rising)});
+    const ReleaseConditions conditions = release_conditions(group().law, shape, resting_[i]);
+    const auto watch = [&](Incident::Kind kind, const Program& condition) {
+      release_watches_.push_back({static_cast<int>(i), kind, EventWatch(condition, CrossingDirection::rising)});
+    };
+    watch(Incident::Kind::leave, conditions.pull);
+    for (const Program& condition : conditions.past_edges) watch(Incident::Kind::past_edge, condition);
   }
 }
 
@@ -138,7 +142,7 @@ void Motion::find_next() {
   for (const Watch& watch : watches_)
     if (watch.watch.next().found) consider(watch.watch.next().time, Incident::Kind::event, watch.event);
   for (const ReleaseWatch& release : release_watches_)
-    if (release.watch.next().found) consider(release.watch.next().time, Incident::Kind::leave, release.resting);
+    if (release.watch.next().found) consider(release.watch.next().time, release.kind, release.resting);
   for (std::size_t i = 0; i < pairs_.size(); ++i)
     if (pairs_[i].contact.status != ContactStatus::separated)
       consider(pairs_[i].contact.time, Incident::Kind::contact, static_cast<int>(i));

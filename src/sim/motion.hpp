@@ -16,10 +16,10 @@ namespace trajet {
 
 /// The next thing that happens to a motion on its current Segment.
 struct Incident {
-  enum class Kind { segment_end, event, contact, leave };
+  enum class Kind { segment_end, event, contact, leave, past_edge };
   double time = 0.0;
   Kind kind = Kind::segment_end;
-  int index = 0;  ///< of the event in World::events; of the pair for a contact, of the resting contact for a leave
+  int index = 0;  ///< of the event in World::events; of the pair for a contact, else of the resting contact that ends
 };
 
 /// One group of a World on its way: its stepper, the Segment it is on, and all it looks out for.
@@ -94,7 +94,8 @@ class Motion {
   };
 
   struct ReleaseWatch {
-    int resting;  ///< in resting_
+    int resting;          ///< in resting_
+    Incident::Kind kind;  ///< why it ends: leave, past_edge
     EventWatch watch;
   };
 

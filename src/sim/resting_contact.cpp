@@ -2,6 +2,7 @@
 
 #include <Eigen/QR>
 #include <array>
+#include <cmath>
 #include <variant>
 
 namespace trajet {
@@ -115,6 +116,21 @@ class FlatNormal {
 
 bool is_flat_at(const Shape& shape, const Vector3& normal) { return std::visit(FlatNormal(normal), shape); }
 
+bool moves_off(const Shape& shape, const Vector3& normal, const Vector3& position, const Vector3& velocity) {
+  constexpr double kAtEdge = 1e-12;  // of the place and the size: far above rounding
+  for (const Edge& edge : std::visit(FaceEdges(normal), shape)) {
+    const double beyond = edge.direction.dot(position) - edge.limit;
+    const double near = kAtEdge * (position.lpNorm<1>() + std::abs(edge.limit));
+    if (beyond >= -near && edge.direction.dot(velocity) > 0.0) return true;
+  }
+  const auto* disk = std::get_if<Disk>(&shape);
+  if (disk == nullptr) return false;
+  Vector3 arm = position - disk->center;
+  arm -= arm.dot(disk->normal) * disk->normal;
+  const double near = kAtEdge * (position.lpNorm<1>() + disk->center.lpNorm<1>() + disk->radius);
+  return arm.norm() >= disk->radius - near && arm.dot(velocity) > 0.0;
+}
+
 Support support(const std::vector<Vector3>& normals) {
   Support support;
   if (normals.empty()) return support;
@@ -147,10 +163,10 @@ Program hold(const Program& law, int offset, const Vector3& direction) {
   return held;
 }
 
-std::vector<Program> release_conditions(const Program& law, const Shape& shape, const RestingContact& contact) {
-  Program pull = law;
-  pull.outputs = {ProgramWriter(pull).along(contact.release, output_vector(law, contact.offset + kVelocity))};
-  std::vector<Program> conditions = {pull};
+ReleaseConditions release_conditions(const Program& law, const Shape& shape, const RestingContact& contact) {
+  ReleaseConditions conditions{law, {}};
+  conditions.pull.outputs = {
+      ProgramWriter(conditions.pull).along(contact.release, output_vector(law, contact.offset + kVelocity))};
 
   const int position = 1 + contact.offset;  // behind t
   Program inputs;
@@ -160,7 +176,7 @@ std::vector<Program> release_conditions(const Program& law, const Shape& shape, 
     ProgramWriter writer(past);
     const int along = writer.along(edge.direction, {position, position + 1, position + 2});
     past.outputs = {writer.write(Opcode::add_constant, along, 0, -edge.limit)};
-    conditions.push_back(past);
+    conditions.past_edges.push_back(past);
   }
   if (const auto* disk = std::get_if<Disk>(&shape)) {
     // |p - c|^2 - (n . (p - c))^2 - R^2: past the rim
@@ -172,7 +188,7 @@ std::vector<Program> release_conditions(const Program& law, const Shape& shape, 
     int sum = writer.write(Opcode::negate, writer.write(Opcode::square, writer.along(disk->normal, arm), 0), 0);
     for (const int component : arm) sum = writer.write(Opcode::add, sum, writer.write(Opcode::square, component, 0));
     past.outputs = {writer.write(Opcode::add_constant, sum, 0, -disk->radius * disk->radius)};
-    conditions.push_back(past);
+    conditions.past_edges.push_back(past);
   }
   return conditions;
 }

@@ -28,12 +28,18 @@ Support support(const std::vector<Vector3>& normals);
 /// Whether a body can rest on a shape where its normal is `normal`: on a flat face; not on a curved surface, an edge, a corner.
 bool is_flat_at(const Shape& shape, const Vector3& normal);
 
+/// Whether a body whose centre is at `position` is at an edge of the face with that normal, and moves off it.
+bool moves_off(const Shape& shape, const Vector3& normal, const Vector3& position, const Vector3& velocity);
+
 /// The law of a group with the body at `offset` held back in a direction (unit): of the rates of its position and its
 /// velocity, the parts along it are taken out.
 Program hold(const Program& law, int offset, const Vector3& direction);
 
-/// Programs of t and the group's state that become positive when the contact ends: release . a with the acceleration a that
-/// `law` gives the body (m/s^2), and how far the body is past each edge of the face.
-std::vector<Program> release_conditions(const Program& law, const Shape& shape, const RestingContact& contact);
+/// Programs of t and the group's state that become positive when a contact ends.
+struct ReleaseConditions {
+  Program pull;                     ///< release . a, a the acceleration that the law gives the body, m/s^2
+  std::vector<Program> past_edges;  ///< how far the body is past each edge of the face
+};
+ReleaseConditions release_conditions(const Program& law, const Shape& shape, const RestingContact& contact);
 
 }  // namespace trajet

@@ -102,6 +102,7 @@ void Simulation::handle(int index, const Incident& incident) {
     case Incident::Kind::contact:
       return handle_contact(index, incident);
     case Incident::Kind::leave:
+    case Incident::Kind::past_edge:
       return handle_leave(index, incident);
   }
 }

@@ -3,6 +3,7 @@
 #include <functional>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <queue>
 #include <string>
 #include <vector>
@@ -48,6 +49,12 @@ class Simulation {
   void release_by_force(Motion& motion, const World::Body& body, double t, const Eigen::VectorXd& q,
                         std::vector<Released>& released);
   Released release(Motion& motion, int resting, double t, const Eigen::VectorXd& q);
+  /// Where a body slides off a face and another one goes on from there without a step, its rest on that one begins.
+  std::optional<Released> rest_on_continuation(Motion& motion, const RestingContact& contact, double t,
+                                               const Eigen::VectorXd& q);
+  /// A contact that begins or ends without an impulse.
+  Impact steady_contact(const Motion& motion, const RestingContact& contact, ImpactKind kind, double t,
+                        const Eigen::VectorXd& q) const;
   void record_leave(const Motion& motion, const RestingContact& contact, double t, const Eigen::VectorXd& q);
 
   void advance(int motion);

@@ -18,6 +18,15 @@ bool is_below_flight(double speed, double pull, double tolerance) {
   return speed * speed <= 2.0 * pull * kLowestFlight * tolerance;
 }
 
+/// Whether a point above a face with that normal is behind the shape, where it is thin.
+bool looks_down(const Shape& shape, const Vector3& normal) {
+  const auto looks = [&](const auto& s) {
+    if constexpr (requires { s.normal; }) return s.normal.dot(normal) < 0.0;
+    return false;
+  };
+  return std::visit(looks, shape);
+}
+
 }  // namespace
 
 void Simulation::bounce(int index, const Incident& incident, Impact impact) {
@@ -43,6 +52,11 @@ void Simulation::bounce(int index, const Incident& incident, Impact impact) {
     if (!is_flat_at(obstacle.shape, impact.normal)) {
       fail(t, "body '" + body.name + "' comes to rest on the curved or sharp part of obstacle '" + obstacle.name +
                   "', where trajet cannot follow it");
+      return;
+    }
+    if (body.radius > 0.0 && moves_off(obstacle.shape, impact.normal, impact.position, velocity)) {
+      fail(t, "body '" + body.name + "' slides over an edge of obstacle '" + obstacle.name +
+                  "' too slowly to leave it, where trajet cannot follow it");
       return;
     }
     moving.begin_rest(incident.index, impact.normal);
@@ -125,19 +139,51 @@ Simulation::Released Simulation::release(Motion& moving, int resting, double t, 
 }
 
 void Simulation::record_leave(const Motion& moving, const RestingContact& contact, double t, const Eigen::VectorXd& q) {
+  record(steady_contact(moving, contact, ImpactKind::leave, t, q));
+}
+
+Impact Simulation::steady_contact(const Motion& moving, const RestingContact& contact, ImpactKind kind, double t,
+                                  const Eigen::VectorXd& q) const {
   const Motion::Pair& pair = moving.pair(contact.pair);
   Impact impact;
   impact.time = t;
   impact.body = body_of(pair).name;
   impact.with = obstacle_of(pair).name;
-  impact.kind = ImpactKind::leave;
+  impact.kind = kind;
   impact.normal = contact.normal;
   impact.position = q.segment<3>(contact.offset);
   impact.point = impact.position - body_of(pair).radius * contact.normal;
   impact.velocity_before = impact.velocity_after = q.segment<3>(contact.offset + 3);
-  impact.angular_velocity_before = impact.angular_velocity_after = angular_velocity(body_of(moving.pair(contact.pair)), q);
+  impact.angular_velocity_before = impact.angular_velocity_after = angular_velocity(body_of(pair), q);
   impact.impulse = Vector3::Zero();
-  record(impact);
+  return impact;
+}
+
+std::optional<Simulation::Released> Simulation::rest_on_continuation(Motion& moving, const RestingContact& contact,
+                                                                     double t, const Eigen::VectorXd& q) {
+  const World::Body& body = body_of(moving.pair(contact.pair));
+  const Vector3 position = q.segment<3>(contact.offset);
+  const Vector3 velocity = q.segment<3>(contact.offset + 3);
+  const Vector3 foot = position - body.radius * contact.normal;
+  const double size = position.norm() + body.radius;
+  const auto continues = [&](const Motion::Pair& pair) {
+    const World::Obstacle& obstacle = obstacle_of(pair);
+    if (&body_of(pair) != &body || pair.resting || obstacle.on_hit != OnHit::bounce) return false;
+    if (!is_flat_at(obstacle.shape, contact.normal)) return false;
+    const Vector3 above = foot + size * contact.normal;
+    const Vector3 surface = std::visit([&](const auto& shape) { return closest_point(shape, above); }, obstacle.shape);
+    constexpr double kRounding = 1e-12;  // a step this high, of the place and the size, is none
+    return (surface - foot).norm() <= kRounding * size &&
+           !moves_off(obstacle.shape, contact.normal, position, velocity);
+  };
+  const auto found = std::ranges::find_if(moving.pairs(), continues);
+  if (found == moving.pairs().end()) return std::nullopt;
+  RestingContact next = contact;
+  next.pair = static_cast<int>(found - moving.pairs().begin());
+  record(steady_contact(moving, next, ImpactKind::rest, t, q));
+  moving.begin_rest(next.pair, next.normal);
+  const bool is_behind = body.radius == 0.0 && looks_down(obstacle_of(*found).shape, contact.normal);
+  return Released{next.pair, {is_behind ? -1 : 1, t}};
 }
 
 void Simulation::handle_leave(int index, const Incident& incident) {
@@ -150,6 +196,13 @@ void Simulation::handle_leave(int index, const Incident& incident) {
   write_sample(incident.time);
   record_leave(moving, contact, incident.time, q);
   std::vector<Released> released = {release(moving, incident.index, incident.time, q)};
+  if (incident.kind == Incident::Kind::past_edge) {
+    const bool is_thin = !std::holds_alternative<Box>(obstacle_of(moving.pair(contact.pair)).shape);
+    // beside a thin surface a point takes the side to which it falls: it does not go through
+    if (is_thin && body.radius == 0.0) released.front().memory.side = 0;
+    if (const std::optional<Released> next = rest_on_continuation(moving, contact, incident.time, q))
+      released.push_back(*next);
+  }
   release_by_force(moving, body, incident.time, q, released);
   moving.restart(incident.time, q);
   for (const Released& each : released) moving.rebound(each.pair, each.memory);

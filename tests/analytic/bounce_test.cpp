@@ -219,6 +219,101 @@ on_hit = "stop"
   }
 }
 
+/// A table that looks up at z = 0, with an edge at x = 1.
+std::vector<std::string> tables() {
+  return {"shape = \"rectangle\"\ncenter = [0, 0, 0]\nnormal = [0, 0, 1]\nup = [0, 1, 0]\nsize = [2, 4]\n",
+          "shape = \"rectangle\"\ncenter = [0, 0, 0]\nnormal = [0, 0, -1]\nup = [0, 1, 0]\nsize = [2, 4]\n",
+          "shape = \"disk\"\ncenter = [0, 0, 0]\nnormal = [0, 0, 1]\nradius = 1\n",
+          "shape = \"triangle\"\npoints = [[1, -3, 0], [1, 3, 0], [-9, 0, 0]]\n",
+          "shape = \"box\"\ncenter = [0, 0, -0.5]\nsize = [2, 4, 1]\n"};
+}
+
+std::string on_table(const std::string& table, const std::string& body) {
+  return "[time]\nend = 20\n[[body]]\nname = \"ball\"\nacceleration = [0, 0, -9.8]\n" + body +
+         "[[obstacle]]\nname = \"table\"\non_hit = \"bounce\"\nrestitution = 0\n" + table +
+         "[[obstacle]]\nname = \"ground\"\nshape = \"plane\"\npoint = [0, 0, -4.9]\nnormal = [0, 0, 1]\n";
+}
+
+TEST(Rest, APointFallsPastTheEdge) {
+  const double slide = 0.1;  // s to the edge
+  const double fall = 1.0;
+  for (const std::string& table : tables())
+    for (const double speed : {1e-6, 0.3, 7.0}) {
+      SCOPED_TRACE(table + test::number(speed));
+      const RunResult result =
+          test::run_text(on_table(table, "position = [" + test::number(1.0 - slide * speed) +
+                                             ", 0, 1e-9]\nvelocity = [" + test::number(speed) + ", 0, 0]\n"));
+      ASSERT_EQ(result.status, RunStatus::stopped) << result.failure;
+      EXPECT_EQ(test::impacts_of(result, ImpactKind::leave).size(), 1u);
+      EXPECT_EQ(result.impacts.back().with, "ground");
+      EXPECT_NEAR(result.end_time, slide + fall, 1e-9);  // the edge is known to 1e-16 m, at 1e-6 m/s
+    }
+}
+
+TEST(Rest, ABallTooSlowForTheEdgeIsNotFollowed) {
+  // Past the edge it flies off where v^2 > g r, else it slides round the edge.
+  for (const std::string& table : tables())
+    for (const double speed : {0.5, 2.0}) {
+      SCOPED_TRACE(table + test::number(speed));
+      const RunResult result = test::run_text(
+          on_table(table, "shape = \"sphere\"\nradius = 0.1\nposition = [" + test::number(1.0 - 0.25 * speed) +
+                              ", 0, 0.1]\nvelocity = [" + test::number(speed) + ", 0, 0]\n"));
+      if (speed * speed > 9.8 * 0.1) {
+        EXPECT_EQ(result.status, RunStatus::stopped) << result.failure;
+        EXPECT_NEAR(result.end_time, 1.25, 1e-9);
+      } else {
+        EXPECT_EQ(result.status, RunStatus::failed);
+        EXPECT_NE(result.failure.find("edge"), std::string::npos) << result.failure;
+        EXPECT_NEAR(result.end_time, 0.25, 1e-7);
+      }
+    }
+}
+
+TEST(Rest, AFloorOfTilesCarriesOnToItsEnd) {
+  for (const std::string ball :
+       {"position = [0, 0, 1e-3]\n", "shape = \"sphere\"\nradius = 0.1\nposition = [0, 0, 0.101]\n"})
+    for (const bool is_thin : {true, false}) {
+      std::string floor;
+      for (int i = 0; i < 4; ++i) {
+        const std::string x = std::to_string(i);
+        floor += "[[obstacle]]\nname = \"tile" + x + "\"\non_hit = \"bounce\"\nrestitution = 0\ncenter = [" + x;
+        // every other one upside down
+        floor += is_thin ? ", 0, 0]\nshape = \"rectangle\"\nup = [0, 1, 0]\nsize = [1, 1]\nnormal = [0, 0, " +
+                               std::string(i % 2 == 0 ? "1" : "-1") + "]\n"
+                         : ", 0, -0.5]\nshape = \"box\"\nsize = [1, 1, 1]\n";
+      }
+      const RunResult result = test::run_text(
+          "[time]\nend = 5\n[[body]]\nname = \"ball\"\nvelocity = [1, 0, 0]\nacceleration = [0, 0, -9.8]\n" + ball +
+          floor);
+      ASSERT_EQ(result.status, RunStatus::finished) << result.failure;
+      const auto leaves = test::impacts_of(result, ImpactKind::leave);
+      ASSERT_EQ(leaves.size(), 4u);
+      for (int i = 0; i < 4; ++i) {
+        EXPECT_EQ(leaves[static_cast<std::size_t>(i)]->with, "tile" + std::to_string(i));
+        EXPECT_NEAR(leaves[static_cast<std::size_t>(i)]->time, 0.5 + i, 1e-14);
+      }
+      const BodyState& end = test::final_of(result, "ball");
+      EXPECT_NEAR(end.position.x(), 5.0, 1e-13);
+      EXPECT_NEAR(end.velocity.z(), -9.8 * 1.5, 1e-12);
+    }
+}
+
+TEST(Rest, EndsWhereTheLawTurnsOverAtOnce) {
+  for (const Way& way : ways()) {
+    const RunResult result = test::run_text("[time]\nend = 4\n[method]\n" + way.lines + R"(
+[[body]]
+name = "ball"
+position = [0, 0, 0]
+acceleration = "[0, 0, where(t < 2, -9.8, 1)]"
+)" + kGround + "restitution = 0\n");
+    ASSERT_EQ(result.status, RunStatus::finished) << result.failure;
+    const auto leaves = test::impacts_of(result, ImpactKind::leave);
+    ASSERT_EQ(leaves.size(), 1u) << way.name;
+    EXPECT_NEAR(leaves[0]->time, 2.0, 1e-13) << way.name;
+    EXPECT_NEAR(test::final_of(result, "ball").position.z(), 2.0, 1e-12) << way.name;
+  }
+}
+
 TEST(Rest, EndsWhenTheLawPullsAway) {
   // Gravity turns over at t = 3: the ball leaves the ground then.
   const RunResult result = test::run_text(R"(

@@ -293,5 +293,25 @@ on_hit = "pass"
   EXPECT_EQ(jumps.impacts.size(), 2u);  // in at 3 and at 8
 }
 
+TEST(When, AJumpAcrossZeroIsACrossing) {
+  // q = t, at least up to 2; at the ends of steps (rk4 0.25, 0.1; of taylor where the law jumps) and within.
+  const std::vector<std::string> jumps = {"where(t < 2, -1, 1)", "where(t <= 2, -1, 1)", "sign(q - 2)",
+                                          "floor(t) - 1.5", "where(q > 2, 3 - t, -1)"};
+  for (const std::string rate : {"1", "where(t < 2, 1, 1.5)"})
+    for (const std::string& jump : jumps)
+      for (const Way& way : ways()) {
+        SCOPED_TRACE(way.name + ", " + jump + ", rate " + rate);
+        const RunResult result =
+            run_text("[time]\nend = 2.9\n[method]\n" + way.lines + "[[state]]\nname = \"q\"\nvalue = 0\nrate = \"" +
+                     rate + "\"\n" + event("jump", jump));
+        ASSERT_EQ(result.status, RunStatus::finished) << result.failure;
+        ASSERT_EQ(result.events.size(), 1u);
+        // methods that step across the law's jump know q there to their interpolant's error only
+        const bool is_exact = rate == "1" || way.name == "taylor" || jump.find('q') == std::string::npos;
+        EXPECT_NEAR(result.events[0].time, 2.0, is_exact ? 1e-13 : 0.5);
+        EXPECT_EQ(result.events[0].direction, 1);
+      }
+}
+
 }  // namespace
 }  // namespace trajet

@@ -218,7 +218,9 @@ class RootSearch {
   /// A piece that cannot be halved: a jump, or flat to all that the whole interval's rounding tells, or undecided.
   void mark_smallest(const Range& value, const Point& left, const Point& right) {
     const bool is_jump = differ_in_sign(left.jet.value, right.jet.value);
-    if (!is_jump && !is_within(value, flat_enough_)) return give_up(left.time, right.time);
+    // where a time cannot be told from that of a jump, both its values are possible
+    const double undecided = std::max({flat_enough_, left.tolerance, right.tolerance});
+    if (!is_jump && !is_within(value, undecided)) return give_up(left.time, right.time);
     if (is_jump) {
       mark_crossing(left, right);
     } else {
