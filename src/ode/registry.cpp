@@ -36,9 +36,14 @@ class WrappedStepper final : public AnyStepper {
   const State& state() const override { return stepper_.state(); }
   const StepStatistics& statistics() const override { return stepper_.statistics(); }
   bool amend(const State& q) override {
-    constexpr bool kCanAmend = requires { stepper_.amend(q); };
-    if constexpr (kCanAmend) stepper_.amend(q);
-    return kCanAmend;
+    if constexpr (requires { static_cast<bool>(stepper_.amend(q)); }) {
+      return stepper_.amend(q);
+    } else if constexpr (requires { stepper_.amend(q); }) {
+      stepper_.amend(q);
+      return true;
+    } else {
+      return false;
+    }
   }
   std::vector<std::string> warnings() const override {
     if constexpr (requires { stepper_.warnings(); }) return stepper_.warnings();

@@ -52,7 +52,7 @@ ComponentOrigin origin(const Scene& scene, const World& world, int group, int co
             definition.position_rate ? definition.position_rate->where() : definition.where};
   if (body->rotation && component >= body->rotation->offset) {
     for (const auto* law : {&definition.angular_acceleration, &definition.angular_acceleration_body, &definition.torque,
-                            &definition.torque_body})
+                            &definition.torque_body, &definition.force_point})
       if (*law) return {"rotation" + of_body, (*law)->where()};
     return {"rotation" + of_body, definition.where};
   }

@@ -49,6 +49,13 @@ class GaussStepper {
     grid_.start(t);
   }
 
+  /// Replaces the state. The sums of the components that stay are compensated further.
+  void amend(const State& q) {
+    for (Eigen::Index i = 0; i < q.size(); ++i)
+      if (q[i] != q1_[i]) lost_[i] = 0.0;
+    q1_ = q;
+  }
+
   StepStatus advance(double t_limit) {
     assert(t_limit != t1_);
     const double previous_step = t1_ - t0_;

@@ -59,6 +59,13 @@ class Rk4DoublingStepper {
     grid_.start(t);
   }
 
+  /// Replaces the state at the end of an interval, from which the next one starts. False within one.
+  bool amend(const State& q) {
+    if (piece_ != piece_count_) return false;
+    q_ = q;
+    return true;
+  }
+
   /// Hands out the next piece of the interval, a step h of q_a; behind the last one, computes the next interval.
   StepStatus advance(double t_limit) {
     assert(t_limit != t_);

@@ -52,6 +52,9 @@ class SeriesStepper {
     grid_.start(t);
   }
 
+  /// Replaces the state.
+  void amend(const State& q) { q_ = q; }
+
   StepStatus advance(double t_limit) {
     assert(t_limit != t_);
     if (!node_) node_ = grid_.next(t_, t_limit);

@@ -70,8 +70,8 @@ class AnyStepper {
   virtual const State& state() const = 0;
   virtual const StepStatistics& statistics() const = 0;
   /// Replaces the state at the current time by one that differs little and means the same, such as a quaternion of unit
-  /// length again: the steps go on as they would have. False, and nothing is done, where the method would lose its memory
-  /// of earlier steps. The last step's Segment is gone.
+  /// length again: the steps go on as they would have. False, and nothing is done, where the method would lose what
+  /// it has computed ahead or remembers. The last step's Segment is gone.
   virtual bool amend(const State&) { return false; }
   /// What a user should know of the work so far: sentences, each once.
   virtual std::vector<std::string> warnings() const = 0;
