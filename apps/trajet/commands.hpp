@@ -37,6 +37,7 @@ struct RunArguments {
 /// What `trajet compare` takes beside that.
 struct CompareArguments : RunArguments {
   std::vector<std::string> methods;
+  std::vector<std::string> orientations;
   std::vector<long> steps;
   std::vector<double> rtols;
   std::string reference;

@@ -30,7 +30,7 @@ class CompareMonitor : public CompareObserver {
   RunObserver* begin_row(const ComparisonRow& row, std::size_t index, std::size_t count) override {
     keep_motion();
     row_ = index;
-    curves_.resize(count);
+    motions_.resize(count);
     monitor_.set_label(fmt::format("{} ({} of {})", row.method, index + 1, count));
     return &monitor_;
   }
@@ -38,9 +38,9 @@ class CompareMonitor : public CompareObserver {
   /// Removes the line of progress.
   void clear() { monitor_.clear(); }
   /// What `compare_figure` draws; call it when the comparison is done.
-  const std::vector<RowCurves>& curves() {
+  const std::vector<RowMotion>& motions() {
     keep_motion();
-    return curves_;
+    return motions_;
   }
   bool has_motions() const { return row_.has_value(); }
 
@@ -52,17 +52,14 @@ class CompareMonitor : public CompareObserver {
   /// That of the row that was run last.
   void keep_motion() {
     if (!keeps_motions_ || !row_) return;
-    RowCurves& curves = curves_[*row_];
-    curves.clear();
-    for (std::size_t g = 0; g < record_.world().groups.size(); ++g)
-      curves.push_back(make_curve(record_, static_cast<int>(g)));
+    motions_[*row_] = make_row_motion(record_);
   }
 
   bool keeps_motions_;
   MotionRecord record_;
   RunMonitor monitor_;
   std::optional<std::size_t> row_;
-  std::vector<RowCurves> curves_;
+  std::vector<RowMotion> motions_;
 };
 
 ComparePlan plan(const CompareArguments& arguments) {
@@ -71,6 +68,9 @@ ComparePlan plan(const CompareArguments& arguments) {
   if (plan.methods.empty() && arguments.overrides.method) plan.methods = {*arguments.overrides.method};
   plan.step_counts = arguments.steps;
   for (const double rtol : arguments.rtols) plan.rtols.push_back(Expression::number(rtol, {"--rtols"}));
+  plan.orientations_where = {"--orientations"};
+  for (const std::string& name : arguments.orientations)
+    plan.orientations.push_back(orientation_way(name, plan.orientations_where));
   plan.reference = arguments.reference;
   plan.methods_where = {"--methods"};
   plan.reference_where = {"--reference"};
@@ -92,6 +92,10 @@ std::string reference_line(const Comparison& comparison) {
   return text + fmt::format("; compared: {}\n", fmt::join(comparison.components, ", "));
 }
 
+std::string name(const ComparisonRow& row) {
+  return row.orientation.empty() ? row.method : row.method + ", " + row.orientation;
+}
+
 std::string table(const Comparison& comparison, bool color) {
   TextTable table{{"method", "step [s]", "rtol", "error: end", "at samples", "at nodes", "position: end", "at samples",
                    "at nodes", "evaluations", "steps", "rejected", "time [ms]"}};
@@ -100,10 +104,10 @@ std::string table(const Comparison& comparison, bool color) {
     const std::string setting =
         row.rtol ? fmt::format("rtol {:g}", *row.rtol) : fmt::format("step {} s", cell(row.step));
     if (!row.succeeded()) {
-      failures += fmt::format("  {}, {}: {}\n", styled(row.method, Style::red, color), setting, row.failure);
+      failures += fmt::format("  {}, {}: {}\n", styled(name(row), Style::red, color), setting, row.failure);
       continue;
     }
-    table.push_back({row.method, cell(row.step), cell(row.rtol), cell(row.at_end.state), cell(row.at_samples.state),
+    table.push_back({name(row), cell(row.step), cell(row.rtol), cell(row.at_end.state), cell(row.at_samples.state),
                      cell(row.at_nodes.state), cell(row.at_end.position), cell(row.at_samples.position),
                      cell(row.at_nodes.position), std::to_string(row.statistics.law_evaluations),
                      std::to_string(row.statistics.steps), std::to_string(row.statistics.rejected_steps),
@@ -166,7 +170,7 @@ int compare_command(const CompareArguments& arguments) {
     csv->write(compare_csv(comparison));
     csv->finish();
   }
-  if (plot && monitor.has_motions()) plot->write(compare_figure(comparison, world, monitor.curves(), shown));
+  if (plot && monitor.has_motions()) plot->write(compare_figure(comparison, world, monitor.motions(), shown));
   const bool stdout_has_data = arguments.json == "-" || arguments.csv == "-";
   if (!arguments.quiet && !stdout_has_data) {
     const bool color = wants_color(stdout);

@@ -48,6 +48,9 @@ void add_compare_options(CLI::App& command, CompareArguments& arguments) {
   command.add_option("--methods", arguments.methods, "methods to compare, default: all")
       ->delimiter(',')
       ->type_name("NAME,...");
+  command.add_option("--orientations", arguments.orientations, "ways of carrying orientations, each with every method")
+      ->delimiter(',')
+      ->type_name("NAME,...");
   command.add_option("--steps", arguments.steps, "numbers of steps over the run, for methods of given step")
       ->delimiter(',')
       ->check(CLI::PositiveNumber)

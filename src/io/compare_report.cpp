@@ -34,7 +34,8 @@ Json object(const ComparisonRow& row) {
           {"steps", row.statistics.steps},
           {"rejected_steps", row.statistics.rejected_steps},
           {"impacts", row.impacts},
-          {"wall_seconds", row.statistics.wall_seconds}};
+          {"wall_seconds", row.statistics.wall_seconds},
+          {"orientation", row.orientation.empty() ? Json(nullptr) : Json(row.orientation)}};
 }
 
 /// A value as a cell: text that holds a comma or a quotation mark between quotation marks, these doubled.

@@ -37,6 +37,14 @@ void set_parameter(const std::string& assignment, Scene& scene) {
 
 }  // namespace
 
+OrientationWay orientation_way(const std::string& name, const SourceLocation& where) {
+  if (const OrientationInfo* info = find_orientation_way(name)) return info->way;
+  std::vector<std::string_view> known;
+  for (const OrientationInfo& each : orientation_ways()) known.push_back(each.name);
+  throw InputError(
+      where, "unknown way of carrying orientations '" + name + "', see 'trajet methods'" + did_you_mean(name, known));
+}
+
 void apply(const SceneOverrides& overrides, Scene& scene) {
   for (const std::string& assignment : overrides.parameters) set_parameter(assignment, scene);
   const std::vector<std::string> dashed = dashed_names(scene);
@@ -50,15 +58,8 @@ void apply(const SceneOverrides& overrides, Scene& scene) {
   replace(scene.method.atol, overrides.atol, "--atol", kDimensionless);
   if (overrides.step) scene.method.steps.clear();
   if (overrides.orientation) {
-    const OrientationInfo* info = find_orientation_way(*overrides.orientation);
-    if (info == nullptr) {
-      std::vector<std::string_view> known;
-      for (const OrientationInfo& each : orientation_ways()) known.push_back(each.name);
-      throw InputError({"--orientation"}, "unknown way of carrying orientations '" + *overrides.orientation +
-                                              "', see 'trajet methods'" + did_you_mean(*overrides.orientation, known));
-    }
-    scene.method.orientation = info->way;
     scene.method.orientation_where = {"--orientation"};
+    scene.method.orientation = orientation_way(*overrides.orientation, scene.method.orientation_where);
   }
   if (overrides.order) scene.method.order = *overrides.order;
   if (overrides.method) {

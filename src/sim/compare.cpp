@@ -92,6 +92,18 @@ class ComparisonRun {
     return chosen;
   }
 
+  /// None where no body turns.
+  std::vector<const OrientationInfo*> compared_orientations() const {
+    const bool turns =
+        std::ranges::any_of(base_.bodies, [](const World::Body& body) { return body.rotation.has_value(); });
+    if (!plan_.orientations.empty() && !turns) throw InputError(plan_.orientations_where, "no body of the scene turns");
+    std::vector<const OrientationInfo*> chosen;
+    for (const OrientationWay way : plan_.orientations)
+      if (std::ranges::find(chosen, &orientation_info(way)) == chosen.end()) chosen.push_back(&orientation_info(way));
+    if (chosen.empty()) chosen.push_back(turns ? &orientation_info(scene_.method.orientation) : nullptr);
+    return chosen;
+  }
+
   MethodOptions options(const MethodInfo& method) const {
     MethodOptions options = scene_.method;
     options.name = method.name;
@@ -115,7 +127,20 @@ class ComparisonRun {
     return told;
   }
 
+  /// Every method with every way of carrying orientations.
   std::vector<Way> lay_out() const {
+    std::vector<Way> ways;
+    for (const Way& way : lay_out_methods())
+      for (const OrientationInfo* orientation : compared_orientations()) {
+        ways.push_back(way);
+        if (orientation == nullptr || plan_.orientations.empty()) continue;
+        ways.back().options.orientation = orientation->way;
+        ways.back().options.orientation_where = plan_.orientations_where;
+      }
+    return ways;
+  }
+
+  std::vector<Way> lay_out_methods() const {
     std::vector<Way> ways;
     for (const MethodInfo* method : compared_methods()) {
       if (is_adaptive(*method)) {
@@ -259,6 +284,7 @@ class ComparisonRun {
   void add_row(const Way& way, std::size_t index, std::size_t count) {
     ComparisonRow row;
     row.method = way.method->name;
+    if (compared_orientations().front() != nullptr) row.orientation = orientation_info(way.options.orientation).name;
     row.end_time = row.compared_until = base_.start;
     try {
       const World world = this->world(way.options);

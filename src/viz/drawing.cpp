@@ -38,7 +38,7 @@ std::vector<Vector2> closed(std::vector<Vector2> corners) {
   return corners;
 }
 
-/// The convex outline of points, counterclockwise [Andrew 1979].
+/// The convex outline of points, counterclockwise: Andrew's monotone chain.
 std::vector<Vector2> outline(std::vector<Vector2> points) {
   std::ranges::sort(points,
                     [](const Vector2& a, const Vector2& b) { return a.x() != b.x() ? a.x() < b.x() : a.y() < b.y(); });
@@ -97,9 +97,9 @@ void draw_ball(const Look& look, const Pose& pose, const Camera& camera, Color c
   drawing.lines.push_back(visible_arc(pose, look.ball_radius, x, z, camera));
 }
 
-void draw_solid(const Look& look, const Pose& pose, const Camera& camera, Color color, Drawing& drawing) {
+void draw_solid(const Look& look, const Pose& pose, const Camera& camera, Color color, bool small, Drawing& drawing) {
   const auto place = [&](const Vector3& p_B) { return Vector3(pose.p_WB + pose.R_WB * p_B); };
-  if (look.faces.size() > kMostFaces) {
+  if (small || look.faces.size() > kMostFaces) {
     std::vector<Vector2> points;
     for (const Face& face : look.faces)
       for (const Vector3& corner : face.corners) points.push_back(camera.project(place(corner)));
@@ -175,10 +175,10 @@ Drawing moved(Drawing drawing, const Vector2& by) {
   return drawing;
 }
 
-Drawing draw_body(const Look& look, const Pose& pose, const Camera& camera, Color color) {
+Drawing draw_body(const Look& look, const Pose& pose, const Camera& camera, Color color, bool small) {
   Drawing drawing{.line_color = mix(color, kBlack, 0.25), .nearness = camera.nearness(pose.p_WB)};
   if (look.ball_radius > 0.0) draw_ball(look, pose, camera, color, drawing);
-  if (!look.faces.empty()) draw_solid(look, pose, camera, color, drawing);
+  if (!look.faces.empty()) draw_solid(look, pose, camera, color, small, drawing);
   if (!look.points.empty()) {
     drawing.line_color = color;
     drawing.line_width = 2.4;

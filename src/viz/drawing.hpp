@@ -45,8 +45,9 @@ struct Drawing {
 
 /// The drawing, moved by so much.
 Drawing moved(Drawing drawing, const Vector2& by);
-/// A body as it stands. Lit from above; what faces away is not drawn.
-Drawing draw_body(const Look& look, const Pose& pose, const Camera& camera, Color color);
+/// A body as it stands. Lit from above; what faces away is not drawn. Of what has very many faces, or is to be drawn
+/// `small`, only the outline.
+Drawing draw_body(const Look& look, const Pose& pose, const Camera& camera, Color color, bool small = false);
 /// Flat pieces of any shape, lit and drawn from both sides, farther ones beneath.
 Drawing draw_faces(const std::vector<Face>& faces, const Camera& camera, Color color);
 

@@ -14,7 +14,7 @@ constexpr double kLargestObstacle = 3.0;
 /// A plane across an axis is near if it is this far from the motion, against the motion's extent along the axis.
 constexpr double kNearPlane = 1.2;
 
-/// What of a polygon lies within a box [Sutherland and Hodgman 1974].
+/// What of a polygon lies within a box, cut by one side after the other.
 std::vector<Vector3> clip(std::vector<Vector3> polygon, const Eigen::AlignedBox3d& box) {
   for (int axis = 0; axis < 3; ++axis)
     for (const double side : {-1.0, 1.0}) {

@@ -89,7 +89,9 @@ bool PathPanel::stays(const World::Body& body) const {
 }
 
 std::string PathPanel::script(const Frame& frame, const FigureSize& size) const {
-  return is_in_space_ ? space_script(frame, size) : plane_script(frame);
+  const std::string legend = fmt::format("set key at screen {:.4f}, {:.4f} right bottom Left reverse horizontal\n",
+                                         frame.right, frame.top + 4.0 / size.height);
+  return legend + (is_in_space_ ? space_script(frame, size) : plane_script(frame));
 }
 
 std::string PathPanel::space_script(const Frame& frame, const FigureSize& size) const {
@@ -176,8 +178,6 @@ std::string PathPanel::plane_script(const Frame& frame) const {
   for (std::size_t k = 0; k < 2; ++k)
     script += axis(k == 0 ? "x" : "y", ranges[k], 5) +
               fmt::format("set {}label '{} [m]'\n", k == 0 ? "x" : "y", "xyz"[kept_[k]]);
-  script += fmt::format("set key at screen {:.4f}, {:.4f} right bottom Left reverse horizontal\n", frame.right,
-                        frame.top + 0.02);
   return script + "plot " + lines + "\n";
 }
 

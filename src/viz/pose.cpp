@@ -13,7 +13,7 @@ Pose pose(const World::Body& body, double time, const Eigen::VectorXd& state) {
 }
 
 std::vector<double> pose_times(double start, double end) {
-  constexpr double kMostSteps = 10.0;
+  constexpr double kMostSteps = 12.0;
   const double duration = end - start;
   if (duration == 0.0) return {start};
   const double rough = std::abs(duration) / kMostSteps * (1.0 - 1e-9);

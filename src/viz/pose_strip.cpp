@@ -9,7 +9,9 @@ namespace trajet::detail {
 namespace {
 
 /// Room for a row's title above it and the times below it, pixels.
-constexpr double kTitle = 20.0, kTimes = 20.0;
+constexpr double kTitle = 20.0, kTimes = 22.0;
+/// Of rows below one another every second pose will do, if there are more than this.
+constexpr std::size_t kMostColumns = 7;
 /// A picture's part of its cell.
 constexpr double kFill = 0.94;
 
@@ -20,6 +22,18 @@ Vector2 reach(const Drawing& drawing) {
   return largest;
 }
 
+/// Every second one, counted from the last; the first too.
+std::vector<Pose> every_second(const std::vector<Pose>& poses) {
+  std::vector<Pose> result;
+  for (std::size_t i = 0; i < poses.size(); ++i)
+    if (i == 0 || (poses.size() - 1 - i) % 2 == 0) result.push_back(poses[i]);
+  return result;
+}
+
+bool have_one_time(const std::vector<Pose>& a, const std::vector<Pose>& b) {
+  return std::ranges::equal(a, b, {}, &Pose::time, &Pose::time);
+}
+
 }  // namespace
 
 void PoseStrip::add_row(const std::string& title, const Look& look, const std::vector<Pose>& poses, Color color) {
@@ -28,15 +42,19 @@ void PoseStrip::add_row(const std::string& title, const Look& look, const std::v
 }
 
 std::string PoseStrip::script(const Frame& frame, const FigureSize& size) const {
+  std::vector<Row> rows = rows_;
+  if (rows.size() > 1)
+    for (Row& row : rows)
+      if (row.poses.size() > kMostColumns) row.poses = every_second(row.poses);
   const Vector2 panel((frame.right - frame.left) * size.width, (frame.top - frame.bottom) * size.height);
   std::size_t columns = 1;
   Vector2 largest = Vector2::Zero();
-  for (const Row& row : rows_) {
+  for (const Row& row : rows) {
     columns = std::max(columns, row.poses.size());
     for (const Pose& pose : row.poses)
       largest = largest.cwiseMax(reach(draw_body(row.look, pose, Camera(), row.color)));
   }
-  const Vector2 cell(panel.x() / static_cast<double>(columns), panel.y() / static_cast<double>(rows_.size()));
+  const Vector2 cell(panel.x() / static_cast<double>(columns), panel.y() / static_cast<double>(rows.size()));
   const Vector2 room(cell.x(), cell.y() - kTitle - kTimes);
   const Camera camera(Vector3::Constant(0.5 * kFill * room.cwiseQuotient(largest).minCoeff()));
 
@@ -49,8 +67,9 @@ std::string PoseStrip::script(const Frame& frame, const FigureSize& size) const 
     script += fmt::format("set label {} {} at first {:.1f},{:.1f} {}\n", label, quoted(text), x, y, style);
     end_labels += fmt::format("unset label {}\n", label++);
   };
-  for (std::size_t r = 0; r < rows_.size(); ++r) {
-    const Row& row = rows_[r];
+  for (std::size_t r = 0; r < rows.size(); ++r) {
+    const Row& row = rows[r];
+    const bool shows_times = r + 1 == rows.size() || !have_one_time(row.poses, rows[r + 1].poses);
     const double bottom = panel.y() - cell.y() * static_cast<double>(r + 1);
     add_label(row.title, 0.0, bottom + cell.y() - 0.4 * kTitle, "left tc '#505050'");
     for (std::size_t p = 0; p < row.poses.size(); ++p) {
@@ -59,11 +78,12 @@ std::string PoseStrip::script(const Frame& frame, const FigureSize& size) const 
       const PlotElements elements = plot_elements(drawing, fmt::format("strip{}_{}", r, p));
       script += elements.data;
       if (!elements.elements.empty()) plot += (plot.empty() ? "" : ", ") + elements.elements;
-      add_label(fmt::format("{:.4g} s", row.poses[p].time), center.x(), bottom + 0.4 * kTimes, "center");
+      if (shows_times)
+        add_label(fmt::format("{:.4g} s", row.poses[p].time), center.x(), bottom + 0.4 * kTimes, "center");
     }
   }
   script += "plot " + plot + "\n" + end_labels;
-  return script + "set border lw 1.2 lc '#404040'\nset tics\nset grid lc '#d8d8d8' lt 1 lw 0.8\n";
+  return script + "set border 31 lw 1.2 lc '#404040'\nset tics\nset grid lc '#d8d8d8' lt 1 lw 0.8\n";
 }
 
 }  // namespace trajet::detail

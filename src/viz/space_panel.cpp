@@ -17,8 +17,8 @@ constexpr Color kObstacleColor = 0x8a8a80;
 constexpr double kObstacleOpacity = 0.5;
 /// Beyond this ratio of the sides of the axes' box each axis has a scale of its own.
 constexpr double kLongestBox = 16.0;
-/// A body whose picture is smaller than this is not drawn, pixels.
-constexpr double kSmallestBody = 3.0;
+/// A body whose picture has a smaller radius than this is not drawn, and one with less than that as an outline, pixels.
+constexpr double kSmallestBody = 2.0, kSmallestDetail = 9.0;
 
 }  // namespace
 
@@ -115,19 +115,19 @@ std::string SpacePanel::script(const Frame& frame, const FigureSize& size) const
   };
   add_paths(shadows_, "shadow", true);
 
-  const double pixels_per_metre = view.camera.matrix().norm();
-  for (const Body& body : bodies_)
-    if (body.look.radius() * pixels_per_metre >= kSmallestBody)
-      drawings.push_back(shifted(draw_body(body.look, body.pose, view.camera, body.color)));
+  const double pixels_per_metre = view.camera.matrix().row(1).norm();
+  for (const Body& body : bodies_) {
+    const double radius = body.look.radius() * pixels_per_metre;
+    if (radius >= kSmallestBody)
+      drawings.push_back(shifted(draw_body(body.look, body.pose, view.camera, body.color, radius < kSmallestDetail)));
+  }
   std::ranges::stable_sort(drawings, {}, &Drawing::nearness);
   for (std::size_t i = 0; i < drawings.size(); ++i) add(plot_elements(drawings[i], fmt::format("solid{}_", i)));
   add_lines("axes", axes.axes, 0x404040, 1.2);
   add_paths(paths_, "path", false);
 
-  script += fmt::format("set key at screen {:.4f}, {:.4f} right bottom Left reverse horizontal\n", frame.right,
-                        frame.top + 4.0 / size.height);
   script += "plot " + plot + "\n" + axes.end_labels;
-  return script + "set border lw 1.2 lc '#404040'\nset tics\nset grid lc '#d8d8d8' lt 1 lw 0.8\n";
+  return script + "set border 31 lw 1.2 lc '#404040'\nset tics\nset grid lc '#d8d8d8' lt 1 lw 0.8\n";
 }
 
 }  // namespace trajet::detail

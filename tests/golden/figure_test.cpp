@@ -177,6 +177,17 @@ TEST(Figure, OfAComparisonHasTheCoursesColours) {
   figure({"compare", drag});  // all methods
 }
 
+TEST(Figure, OfAComparisonShowsSolidsBelowOneAnother) {
+  const std::string svg = figure({"compare", kExamples + "notes/soccer_ball.toml", "--methods", "euler", "--steps",
+                                  "100", "--orientations", "exact,quaternion,quaternion-normalized"});
+  const std::string text = words(svg);
+  for (const char* label :
+       {"exact, 100 steps", "quaternion, 100 steps", "quaternion-normalized, 100 steps", "2 s", "10 s"})
+    EXPECT_NE(text.find(label), std::string::npos) << label;
+  // F101: 16 of the 32 faces of each of the three balls at six times, and the small ones on the way
+  EXPECT_GE(polygons(svg).size(), 3U * 6U * 14U);
+}
+
 TEST(Figure, ComesInThreeFormats) {
   const TemporaryFolder folder;
   const std::string scene = kExamples + "notes/constant_acceleration.toml";

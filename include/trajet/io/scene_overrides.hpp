@@ -20,6 +20,9 @@ struct SceneOverrides {
   std::optional<std::string> orientation{};
 };
 
+/// The way of carrying orientations of that name or alias. Throws InputError at `where`, with the nearest name.
+OrientationWay orientation_way(const std::string& name, const SourceLocation& where);
+
 /// Replaces those parts of the scene. A `step` takes the place of `steps`.
 ///
 /// Throws InputError whose place is the option: `--set NAME`, `--end`.

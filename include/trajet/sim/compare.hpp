@@ -20,10 +20,13 @@ struct ComparePlan {
   std::vector<long> step_counts;
   /// For error-controlled methods. Empty: the scene's rtol, or 1e-3, 1e-6, 1e-9.
   std::vector<Expression> rtols;
+  /// Ways of carrying orientations, each with every method; empty: the scene's.
+  std::vector<OrientationWay> orientations;
   /// `exact` for the scene's closed forms, or a method; empty: the closed forms if there are any, else the
   /// error-controlled method of the highest order that is not itself compared, with tight tolerances.
   std::string reference;
-  SourceLocation methods_where{};    ///< where errors about `methods` point to
+  SourceLocation methods_where{};  ///< where errors about `methods` point to
+  SourceLocation orientations_where{};
   SourceLocation reference_where{};  ///< likewise `reference`
 };
 
@@ -36,6 +39,7 @@ struct Deviation {
 /// One method with one step or tolerance.
 struct ComparisonRow {
   std::string method;          ///< canonical name
+  std::string orientation;     ///< name of the way of carrying it; empty where no body turns
   std::optional<double> step;  ///< s, as given to the method
   std::optional<double> rtol;  ///< error-controlled methods
   std::optional<double> atol;

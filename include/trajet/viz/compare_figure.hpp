@@ -7,11 +7,16 @@
 #include "trajet/sim/compare.hpp"
 #include "trajet/viz/curve.hpp"
 #include "trajet/viz/figure.hpp"
+#include "trajet/viz/pose.hpp"
 
 namespace trajet {
 
-/// The motion of one row of a comparison, for its figure: a Curve for each group of the World.
-using RowCurves = std::vector<Curve>;
+/// The motion of one row of a comparison, for its figure.
+struct RowMotion {
+  std::vector<Curve> curves;             ///< of each group of the World
+  std::vector<std::vector<Pose>> poses;  ///< of each body of the World: none where it does not turn
+};
+RowMotion make_row_motion(const MotionRecord& record);
 
 /// One component of the state of a World, to draw against time.
 struct ShownComponent {
@@ -27,8 +32,9 @@ ShownComponent find_component(const World& world, const std::string& name, const
 ///
 /// Of more than six rows it draws the motion with the largest error of each method, for the six methods with the
 /// largest ones: others lie on the reference. They are drawn in space, in a plane or against time, as the motion needs,
-/// or `component` against time. `curves` has an entry for each row of the comparison, `world` is one of its Worlds.
-Figure compare_figure(const Comparison& comparison, const World& world, const std::vector<RowCurves>& curves,
+/// or `component` against time; solids that turn as they stand along their ways, and below one another as seen from
+/// their centres. `motions` has an entry for each row of the comparison, `world` is one of its Worlds.
+Figure compare_figure(const Comparison& comparison, const World& world, const std::vector<RowMotion>& motions,
                       const std::optional<ShownComponent>& component = std::nullopt);
 
 }  // namespace trajet

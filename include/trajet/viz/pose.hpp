@@ -16,8 +16,8 @@ struct Pose {
 /// Of a body of a World, from the state of its group at that time.
 Pose pose(const World::Body& body, double time, const Eigen::VectorXd& state);
 
-/// Some ten times from `start` to `end`, both included: the start and round steps from there, 1, 2 or 5 times a power
-/// of ten.
+/// Some twelve times from `start` to `end`, both included: the start and round steps from there, 1, 2 or 5 times a
+/// power of ten.
 std::vector<double> pose_times(double start, double end);
 
 /// The poses of a body at times in the order of the run; none where the run ended at its start and left no motion.
