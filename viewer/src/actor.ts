@@ -115,7 +115,7 @@ export class Actor {
 
     const geometry = bodyGeometry(motion.data.shape, color, motion.turns);
     if (geometry) {
-      const material = new THREE.MeshStandardMaterial({ vertexColors: true, flatShading: motion.data.shape.kind !== "sphere", roughness: 0.6 });
+      const material = new THREE.MeshLambertMaterial({ vertexColors: true, flatShading: motion.data.shape.kind !== "sphere" });
       this.body3d.add(new THREE.Mesh(geometry, material));
       if (motion.data.shape.kind !== "sphere")
         this.body3d.add(
@@ -154,8 +154,8 @@ export class Actor {
   /** Named points as dots, and, of a body without a shape, rods to them from the centre of mass. */
   private addPoints(color: string): void {
     const { points, shape } = this.motion.data;
-    const { Mesh, SphereGeometry, CylinderGeometry, MeshStandardMaterial, Vector3, Quaternion } = THREE;
-    const material = new MeshStandardMaterial({ color, roughness: 0.5 });
+    const { Mesh, SphereGeometry, CylinderGeometry, MeshLambertMaterial, Vector3, Quaternion } = THREE;
+    const material = new MeshLambertMaterial({ color });
     const thickness = 0.035 * reach(this.motion.data);
     for (const { position } of points) {
       const end = vector(position);
@@ -196,7 +196,7 @@ export class Actor {
     this.axes.visible = shown.axes && motion.turns;
     this.axes.position.copy(local);
     this.axes.quaternion.copy(turn);
-    for (const axis of this.axes.children) stretch(axis, Math.max(1.4 * this.reach, kAxisPixels * size), kAxisPixels * size);
+    for (const axis of this.axes.children) stretch(axis, Math.max(1.4 * this.reach, kAxisPixels * size), 2 * kAxisPixels * size);
 
     this.showWay(t, local, shown.trails);
   }

@@ -12,12 +12,15 @@ export interface Trail {
 
 /** More straight lines for one piece tell the eye nothing. */
 const kMostLinesOfPiece = 256;
+/** Fewer for the whole run are so long that a camera close to the body stands between their ends, and draws them badly. */
+const kFewestLines = 256;
 
 /**
- * The way of a body as straight lines that stay within about `tolerance` (m) of it.
+ * The way of a body as straight lines, passed at constant speed each, that stay within about twice `tolerance` (m) of it
+ * at all times.
  *
  * A chord over the time h leaves a curve of acceleration a by a h^2 / 8 at most. Pieces that are short beside the
- * tolerance are passed over.
+ * tolerance are passed over; of the many points of a motion in short steps only those are kept that a line would miss.
  */
 export function trailOf(body: BodyMotion, tolerance: number): Trail {
   const { track } = body;
@@ -34,11 +37,37 @@ export function trailOf(body: BodyMotion, tolerance: number): Trail {
     const second = (t: number): number => Math.hypot(...track.vector(piece, body.data.position, t, 2));
     const bend =
       track.degree(piece) < 2 ? 0 : Math.max(...[0, 0.25, 0.5, 0.75, 1].map((part) => second(begin + part * duration)));
-    const lines = Math.min(kMostLinesOfPiece, Math.max(1, Math.ceil(duration * Math.sqrt(bend / (8 * tolerance)))));
+    const wanted = duration * Math.max(Math.sqrt(bend / (8 * tolerance)), kFewestLines / (track.end - track.begin));
+    const lines = Math.min(kMostLinesOfPiece, Math.max(1, Math.ceil(wanted)));
     const turns = piece + 1 === track.count || jumps(track, piece, body.data.velocity, 3);
     for (let i = 1; i <= lines; ++i) add(begin + (duration * i) / lines, piece, i === lines && turns);
   }
-  return trail;
+  return thinned(trail, tolerance);
+}
+
+/** By the algorithm of Douglas and Peucker, with the distance between points of the same time. */
+function thinned({ times, points }: Trail, tolerance: number): Trail {
+  const isKept = new Uint8Array(times.length);
+  isKept[0] = isKept[times.length - 1] = 1;
+  const open: [number, number][] = [[0, times.length - 1]];
+  for (let range = open.pop(); range; range = open.pop()) {
+    const [first, last] = range;
+    const [a, b] = [points[first], points[last]];
+    const duration = times[last] - times[first];
+    let farthest = first;
+    let largest = tolerance;
+    for (let i = first + 1; i < last; ++i) {
+      const part = duration > 0 ? (times[i] - times[first]) / duration : 0;
+      const [x, y, z] = points[i];
+      const off = Math.hypot(x - a[0] - part * (b[0] - a[0]), y - a[1] - part * (b[1] - a[1]), z - a[2] - part * (b[2] - a[2]));
+      if (off > largest) [farthest, largest] = [i, off];
+    }
+    if (farthest === first && (last - first < 2 || kFewestLines * duration < times[times.length - 1] - times[0])) continue;
+    if (farthest === first) farthest = (first + last) >> 1;
+    isKept[farthest] = 1;
+    open.push([first, farthest], [farthest, last]);
+  }
+  return { times: times.filter((_, i) => isKept[i]), points: points.filter((_, i) => isKept[i]) };
 }
 
 /** Whether one of `count` components from `first` on jumps from a piece to the next, by more than rounding. */

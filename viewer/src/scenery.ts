@@ -19,7 +19,7 @@ export class Scenery {
   readonly labels: LabelSpec[] = [];
   /** m; the side of a square of the grid. */
   readonly spacing: number;
-  private readonly surface: THREE.MeshStandardMaterial;
+  private readonly surface: THREE.MeshLambertMaterial;
   private readonly ground: THREE.MeshBasicMaterial;
   private readonly edges: THREE.LineBasicMaterial;
   private readonly lines: THREE.LineBasicMaterial;
@@ -31,7 +31,7 @@ export class Scenery {
     const size = frame.box.getSize(new THREE.Vector3());
     this.spacing = roundSpacing(Math.max(size.x, size.y, size.z) / 10);
     const offset = { polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1 };
-    this.surface = new THREE.MeshStandardMaterial({ side: THREE.DoubleSide, roughness: 0.85, ...offset });
+    this.surface = new THREE.MeshLambertMaterial({ side: THREE.DoubleSide, ...offset });
     this.surface.transparent = true;
     this.surface.opacity = 0.8;
     this.ground = new THREE.MeshBasicMaterial({

@@ -76,6 +76,8 @@ export class Stage {
     this.applyTheme();
     this.resize();
     this.showAll();
+    // All programs of the graphics processor begin to be made here, while the rest of the page is; a frame waits for each.
+    this.renderer.compile(this.scene, this.camera);
   }
 
   private addRun(run: Run, index: number): void {

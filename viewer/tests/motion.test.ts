@@ -57,6 +57,24 @@ describe("a body", () => {
     }
     expect(trail.times.at(-1)).toBe(1);
   });
+
+  it("leaves no more lines than needed when it was computed in short steps", () => {
+    // ten times around a circle of radius 1 at 1 rad/s, in straight steps of 1 ms
+    const steps = Array.from({ length: 62832 }, (_, i) => {
+      const [t, h] = [1e-3 * i, 1e-3];
+      return [t, t + h, t, 1, Math.cos(t), Math.sin(t), 0, -Math.sin(t), Math.cos(t), 0, -Math.sin(t), Math.cos(t), 0, 0, 0, 0];
+    }); // prettier-ignore
+    const tolerance = 5e-4;
+    const { times, points } = trailOf(new BodyMotion(body(), new Track(Float64Array.from(steps.flat()), 6)), tolerance);
+    // a chord may leave the circle by twice the tolerance: 2 sqrt(8 * tolerance) rad each
+    expect(times.length).toBeGreaterThan(62.8 / Math.sqrt(8 * 2 * tolerance));
+    expect(times.length).toBeLessThan((2 * 62.8) / Math.sqrt(8 * tolerance));
+    for (let i = 1; i < times.length; ++i) {
+      const middle = (times[i - 1] + times[i]) / 2;
+      const chord = [0, 1].map((axis) => (points[i - 1][axis] + points[i][axis]) / 2);
+      expect(Math.hypot(chord[0] - Math.cos(middle), chord[1] - Math.sin(middle))).toBeLessThan(2 * tolerance);
+    }
+  });
 });
 
 describe("an orientation", () => {
