@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <utility>
 
 #include "loopback_server.hpp"
 #include "trajet/io/output_file.hpp"
@@ -32,15 +33,19 @@ class LivePage {
     ++version_;
     PageOptions options;
     options.is_live = true;
+    RunStatus status = RunStatus::failed;
     try {
-      html_ = make_view_page(arguments_, options).html;
+      ViewPage page = make_view_page(arguments_, options);
+      status = page.status;
+      html_ = std::move(page.html);
     } catch (const InputError& error) {
       html_ = error_page_html(error, text_of(error.where().file), options);
     } catch (const FileError& error) {
       html_ = error_page_html(InputError({}, error.what()), {}, options);
     }
-    // A run leaves its own answer to Ctrl-C behind; here it ends the program.
+    // A run takes Ctrl-C for itself; here it ends the program.
     signal(SIGINT, SIG_DFL);
+    if (status == RunStatus::interrupted) raise(SIGINT);
   }
 
   const std::string& html() const { return html_; }

@@ -30,13 +30,13 @@ ViewPage make_view_page(const ViewArguments& arguments, const PageOptions& optio
     runs.push_back({motion, report_json(result)});
     return result.status;
   };
+  ViewPage page;
+  page.status = add_run(scene);
   const auto add_variant = [&](const SceneOverrides& overrides) {
     Scene variant = scene;
     apply(overrides, variant);
-    add_run(variant);
+    if (add_run(variant) == RunStatus::interrupted) page.status = RunStatus::interrupted;
   };
-  ViewPage page;
-  page.status = add_run(scene);
   for (const std::string& method : arguments.methods) add_variant({.method = method});
   const auto turns = [](const World::Body& body) { return body.rotation.has_value(); };
   if (!arguments.orientations.empty() && std::ranges::none_of(motions.front().world().bodies, turns))

@@ -9,7 +9,7 @@ namespace trajet {
 
 struct ViewPage {
   std::string html;
-  RunStatus status = RunStatus::finished;  ///< of the scene's own method
+  RunStatus status = RunStatus::finished;  ///< of the scene's own method; `interrupted` if any run was
 };
 
 /// Runs the scene by its own method and by the further ones, and shows the runs on a page.

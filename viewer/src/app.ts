@@ -24,7 +24,8 @@ export class App {
   private isStale = true;
   private lastFrame = 0;
 
-  constructor(root: HTMLElement, data: readonly RunData[]) {
+  /** `time`: what to show first, s; by default the beginning. */
+  constructor(root: HTMLElement, data: readonly RunData[], time?: number) {
     this.runs = namedRuns(data);
     const [first] = this.runs;
     const { report } = first.data;
@@ -57,6 +58,7 @@ export class App {
       this.plots.resize();
       this.isStale = true;
     }).observe(body);
+    if (time !== undefined) this.seek(time);
     document.addEventListener("keydown", (event) => this.onKey(event));
     requestAnimationFrame((now) => this.onFrame(now));
   }

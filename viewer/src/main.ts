@@ -8,13 +8,22 @@ import { applyTheme, initialTheme } from "./theme";
 /** ms between two looks whether the scene has changed. */
 const kLivePeriod = 500;
 
+/** Under which the time that is shown outlives a reload. */
+const kTimeKey = "trajet-time";
+
 const page = document.getElementById("page")!;
 const data = JSON.parse(document.getElementById("trajet-data")!.textContent!) as PageData | null;
 applyTheme(initialTheme());
 if (data?.error) page.append(errorPage(data.error));
-else if (data?.runs) window.trajet = new App(page, data.runs);
+else if (data?.runs) window.trajet = new App(page, data.runs, data.live ? keptTime() : undefined);
 else page.append(element("main", { class: "error" }, element("p", {}, "This page holds no run.")));
 if (data?.live) void reloadWhenChanged();
+
+/** The time that was shown before the scene changed, if any was. */
+function keptTime(): number | undefined {
+  const text = sessionStorage.getItem(kTimeKey);
+  return text === null ? undefined : Number(text);
+}
 
 /** Asks the server, which answers with the number of the page's version. */
 async function reloadWhenChanged(): Promise<void> {
@@ -23,7 +32,10 @@ async function reloadWhenChanged(): Promise<void> {
     try {
       const version = await (await fetch("version", { cache: "no-store" })).text();
       own ??= version;
-      if (version !== own) return location.reload();
+      if (version !== own) {
+        if (window.trajet) sessionStorage.setItem(kTimeKey, String(window.trajet.time));
+        return location.reload();
+      }
     } catch {
       document.title = `${document.title.replace(/ \(stopped\)$/, "")} (stopped)`;
     }

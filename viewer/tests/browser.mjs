@@ -3,7 +3,7 @@
 
 import assert from "node:assert/strict";
 import { execFile, execFileSync, spawn, spawnSync } from "node:child_process";
-import { mkdirSync, readFileSync, statSync, writeFileSync } from "node:fs";
+import { mkdirSync, readFileSync, rmSync, statSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { after, before, test } from "node:test";
 import { pathToFileURL } from "node:url";
@@ -196,6 +196,7 @@ test("--watch shows an error of the scene at its place, and the scene when it is
   const right = readFileSync(join(examples, "free_kick.toml"), "utf8");
   writeFileSync(scene, right.replace("norm(v)", "nrm(v)"));
   const server = spawn(program, ["view", scene, "--watch", "--no-open"]);
+  const ended = new Promise((resolve) => server.once("exit", (...how) => resolve(how)));
   try {
     const line = await new Promise((resolve) => server.stdout.once("data", (data) => resolve(String(data))));
     const context = await browser.newContext();
@@ -206,11 +207,19 @@ test("--watch shows an error of the scene at its place, and the scene when it is
     const [, number] = alert.match(/:(\d+):/);
     assert.equal((await page.locator(".row.wrong .line-number").textContent()).trim(), number);
     await page.screenshot({ path: join(folder, "error.png") });
+    rmSync(scene);
+    await page.getByText("cannot open").waitFor();
     writeFileSync(scene, right);
     await page.waitForFunction(() => window.trajet !== undefined);
     assert.equal(await page.title(), "A free kick over the wall into the corner");
+    // another title, the same time
+    await page.evaluate(() => window.trajet.seek(0.5));
+    writeFileSync(scene, right.replace("A free kick", "Another kick"));
+    await page.waitForFunction(() => document.title.startsWith("Another kick") && window.trajet);
+    assert.equal(await page.evaluate(() => window.trajet.time), 0.5);
     await context.close();
   } finally {
-    server.kill();
+    server.kill("SIGINT");
   }
+  assert.deepEqual(await ended, [null, "SIGINT"]);
 });
