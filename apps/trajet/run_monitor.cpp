@@ -76,7 +76,9 @@ void RunMonitor::show(double time, Clock::time_point now) {
   line += fmt::format("{:.0f} %, t = {:.6g} of {:.6g} s, {:.3g} steps/s", 100.0 * done, time, end_,
                       static_cast<double>(steps_) / elapsed);
   if (done > 0.0) line += fmt::format(", {} left", format_duration(elapsed * (1.0 / done - 1.0)));
-  fmt::print(stderr, "\r{}\033[K", line);
+  // a line that wraps could not be taken back
+  const auto room = static_cast<std::size_t>(terminal_width(stderr) - 1);
+  fmt::print(stderr, "\r{:.{}}\033[K", line, room);
   has_shown_ = true;
   next_show_ = now + kShowInterval;
 }

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <vector>
 
 #include "terminal.hpp"
@@ -13,6 +14,10 @@ namespace trajet {
 namespace {
 
 std::string format(const Vector3& v) { return fmt::format("({:.6g}, {:.6g}, {:.6g})", v.x(), v.y(), v.z()); }
+
+std::string format(const Quaternion& q) {
+  return fmt::format("({:.6g}, {:.6g}, {:.6g}, {:.6g})", q.w(), q.x(), q.y(), q.z());
+}
 
 std::string format_time(double time) { return fmt::format("{:.10g}", time); }
 
@@ -50,6 +55,12 @@ std::string final_state(const Sample& final) {
     for (const BodyState& body : final.bodies)
       table.push_back({body.body, format(body.position), format(body.velocity)});
     text += format_table(table);
+  }
+  if (std::ranges::any_of(final.bodies, &BodyState::turns)) {
+    TextTable table{{"at the end", "orientation (w, x, y, z)", "angular velocity [rad/s]"}};
+    for (const BodyState& body : final.bodies)
+      if (body.turns) table.push_back({body.body, format(body.orientation), format(body.angular_velocity)});
+    text += "\n" + format_table(table);
   }
   for (const NamedValue& state : final.states) text += fmt::format("  {} = {:.10g}\n", state.name, state.value);
   return text;

@@ -1,5 +1,6 @@
 #include "terminal.hpp"
 
+#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <cstdlib>
@@ -7,6 +8,12 @@
 namespace trajet {
 
 bool is_terminal(std::FILE* stream) { return isatty(fileno(stream)) != 0; }
+
+int terminal_width(std::FILE* stream) {
+  constexpr int kUsual = 80;
+  winsize size{};
+  return ioctl(fileno(stream), TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : kUsual;
+}
 
 bool wants_color(std::FILE* stream) {
   const char* no_color = std::getenv("NO_COLOR");

@@ -7,6 +7,8 @@
 namespace trajet {
 
 bool is_terminal(std::FILE* stream);
+/// Columns; 80 where the terminal does not say.
+int terminal_width(std::FILE* stream);
 
 /// Whether colours are welcome on a stream: a terminal, and NO_COLOR unset or empty (https://no-color.org).
 bool wants_color(std::FILE* stream);

@@ -250,6 +250,14 @@ TEST(Examples, TheFreeKickScores) {
   EXPECT_TRUE(straight["impacts"].empty() || straight["impacts"][0]["with"] != "goal");
 }
 
+TEST(Examples, TheSummaryTellsHowSolidsHaveTurned) {
+  const std::string out = run_trajet({"run", kNotes + "soccer_ball.toml", "--orientation", "exact"}).out;
+  // 10 sqrt(2) rad about (0, 1, 1): cos(5 sqrt(2)), sin(5 sqrt(2)) / sqrt(2)
+  EXPECT_NE(out.find("(0.705348, 0, 0.501241, 0.501241)"), std::string::npos) << out;
+  EXPECT_NE(out.find("(0, 1, 1)"), std::string::npos) << out;
+  EXPECT_EQ(run_trajet({"run", kNotes + "drag_3d.toml"}).out.find("orientation"), std::string::npos);
+}
+
 TEST(Methods, AreListed) {
   const std::string out = run_trajet({"methods"}).out;
   for (const char* name : {"euler", "midpoint", "rk4", "dopri5", "ode45", "taylor"})
