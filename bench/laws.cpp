@@ -27,6 +27,8 @@ void add_problem() {
     add_law<Problem, Dop853>(labelled("dop853", tolerance), options);
     if (tolerance >= 1e-8) add_law<Problem, Dopri5>(labelled("dopri5", tolerance), options);
   }
+  for (const double tolerance : kExtendedTolerances)
+    add_law<Problem, TaylorExtended>(labelled("taylor-ext", tolerance), {.rtol = tolerance, .atol = tolerance});
   for (const int steps : fixed_steps<Problem>())
     add_law<Problem, Rk4>(labelled("rk4", steps), {.step = (Problem::end_time() - Problem::start_time()) / steps});
 }

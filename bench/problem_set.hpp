@@ -9,7 +9,6 @@
 #include "problems/free_kick.hpp"
 #include "problems/free_top.hpp"
 #include "problems/kepler.hpp"
-#include "trajet/rigid/free_rotation.hpp"
 #include "trajet/sim/scene.hpp"
 
 /// The smooth problems of the benchmark: for each its name in the tables, its true end, and the same as a scene.
@@ -65,7 +64,7 @@ struct Benchmark<problems::FreeKick> : BodyBenchmark<problems::FreeKick> {
 template <>
 struct Benchmark<problems::Kepler> : BodyBenchmark<problems::Kepler> {
   static constexpr const char* kName = "P4 Kepler";
-  static State reference_end() { return problems::Kepler::start(); }
+  static State reference_end() { return problems::Kepler::reference_end(); }
   static Scene scene() {
     const State start = problems::Kepler::start();
     return body_scene({start[2], start[3], 0.0}, {start[0], start[1], 0.0}, "-r/norm(r)^3",
@@ -77,15 +76,7 @@ template <>
 struct Benchmark<problems::FreeTop> {
   using State = problems::FreeTop::State;
   static constexpr const char* kName = "P3 free top";
-  /// By Jacobi's elliptic functions.
-  static State reference_end() {
-    const State start = problems::FreeTop::start();
-    const FreeRotation rotation(Quaternion(start[0], start[1], start[2], start[3]), start.tail<3>(),
-                                problems::FreeTop::inertia().asDiagonal());
-    const Quaternion q = rotation.q_WB(problems::FreeTop::end_time());
-    const Vector3 w = rotation.w_WB_B(problems::FreeTop::end_time());
-    return (State() << q.w(), q.x(), q.y(), q.z(), w).finished();
-  }
+  static State reference_end() { return problems::FreeTop::reference_end(); }
   static Scene scene() {
     static constexpr const char* kNames[] = {"q0", "q1", "q2", "q3", "w1", "w2", "w3"};
     static constexpr const char* kRates[] = {"-(q1*w1 + q2*w2 + q3*w3)/2",
@@ -128,6 +119,9 @@ double error_at_end(const State& state) {
 
 inline constexpr double kTolerances[] = {1e0,  1e-1,  1e-2,  1e-3,  1e-4,  1e-5,  1e-6,  1e-7, 1e-8,
                                          1e-9, 1e-10, 1e-11, 1e-12, 1e-13, 1e-14, 1e-15, 1e-16};
+
+/// Those of extended precision.
+inline constexpr double kExtendedTolerances[] = {1e-14, 1e-15, 1e-16, 1e-17};
 
 /// The first step (s) of every embedded pair: the peers must be told one, so ours are told the same.
 inline constexpr double kFirstStep = 0.1;

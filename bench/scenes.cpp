@@ -43,6 +43,8 @@ void add_problem() {
     add_scene<Problem>("dop853", labelled("dop853", tolerance), options);
     if (tolerance >= 1e-8) add_scene<Problem>("dopri5", labelled("dopri5", tolerance), options);
   }
+  for (const double tolerance : kExtendedTolerances)
+    add_scene<Problem>("taylor-extended", labelled("taylor-ext", tolerance), {.rtol = tolerance, .atol = tolerance});
   for (const int steps : fixed_steps<Problem>())
     add_scene<Problem>("rk4", labelled("rk4", steps), {.step = (Problem::end_time() - Problem::start_time()) / steps});
 }

@@ -27,6 +27,14 @@ struct FreeTop {
   static double end_time() { return 100.0; }
   static State start() { return (State() << 1, 0, 0, 0, 0.01, 3, 0.02).finished(); }
 
+  /// By power series in 45 digits.
+  static State reference_end() {
+    return (State() << -0.03721279083132670795600617, 0.7050721440314557909425512, -0.1178124955757913915943513,
+            -0.6982898365260904474068683, -0.7446091735485840102351363, -2.906141286769673677480387,
+            0.4303265509403702835510494)
+        .finished();
+  }
+
   /// Twice the kinetic energy, and the square of the angular momentum.
   static Eigen::Vector2d invariants(const State& q) {
     const Eigen::Vector3d w = q.tail<3>(), momentum = inertia().cwiseProduct(w);

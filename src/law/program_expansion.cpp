@@ -3,11 +3,13 @@
 #include <cassert>
 #include <utility>
 
+#include "program_branches.hpp"
 #include "recurrence_step.hpp"
 
 namespace trajet {
 
-ProgramExpansion::ProgramExpansion(Program program) : program_(std::move(program)), row_count_(program_.slot_count) {
+template <class T>
+ProgramExpansionT<T>::ProgramExpansionT(Program program) : program_(std::move(program)), row_count_(program_.slot_count) {
   assert(program_.input_count == dimension() + 1);
   end_state_.resize(program_.outputs.size());
   end_tolerance_.resize(program_.outputs.size());
@@ -54,14 +56,16 @@ ProgramExpansion::ProgramExpansion(Program program) : program_(std::move(program
   ++row_count_;  // behind the last instruction, so that the first row of its own exists even where it needs none
 }
 
-void ProgramExpansion::reserve(int order) {
+template <class T>
+void ProgramExpansionT<T>::reserve(int order) {
   if (order < stride_) return;
   stride_ = order + 1;
-  rows_.assign(static_cast<std::size_t>(row_count_) * static_cast<std::size_t>(stride_), 0.0);
+  rows_.assign(static_cast<std::size_t>(row_count_) * static_cast<std::size_t>(stride_), T(0.0));
   for (const Program::Constant& constant : program_.constants) row(constant.slot)[0] = constant.value;
 }
 
-void ProgramExpansion::expand(double t, const double* q, int order, double* coefficients) {
+template <class T>
+void ProgramExpansionT<T>::expand(double t, const T* q, int order, T* coefficients) {
   assert(order >= 1 && order <= kMaxOrder);
   reserve(order);
   if (!continues_at(t, q)) forget_forced_branches();
@@ -85,10 +89,14 @@ void ProgramExpansion::expand(double t, const double* q, int order, double* coef
   }
 }
 
-void ProgramExpansion::run(const Step& step, int n) {
+template <class T>
+void ProgramExpansionT<T>::run(const Step& step, int n) {
   if (step.branch >= 0) return run_branch(step, branches_[static_cast<std::size_t>(step.branch)], n);
   detail::smooth_step(
       step.instruction, [this](int slot) { return row(slot); }, row(step.scratch), row(step.scratch + 1), n);
 }
+
+template class ProgramExpansionT<double>;
+template class ProgramExpansionT<long double>;
 
 }  // namespace trajet

@@ -39,7 +39,8 @@ inline int scratch_count(Opcode opcode) {
   }
 }
 
-inline bool vanishes(const double* x, int n) {
+template <class T>
+bool vanishes(const T* x, int n) {
   for (int k = 0; k <= n; ++k) {
     if (x[k] != 0.0) return false;
   }
@@ -47,28 +48,33 @@ inline bool vanishes(const double* x, int n) {
 }
 
 /// A power or a root of a function that is 0 at the start: 0 as long as it vanishes, no series otherwise.
-inline double power_of_zero(const double* x, int n) {
-  return vanishes(x, n) ? 0.0 : std::numeric_limits<double>::quiet_NaN();
+template <class T>
+T power_of_zero(const T* x, int n) {
+  return vanishes(x, n) ? 0.0 : std::numeric_limits<T>::quiet_NaN();
 }
 
 /// x^alpha
-inline double power_step(const double* x, const double* p, double alpha, int n) {
+template <class T>
+T power_step(const T* x, const T* p, T alpha, int n) {
   return x[0] == 0.0 && alpha > 0.0 ? power_of_zero(x, n) : recurrence::power(x, p, alpha, n);
 }
 
-inline void sin_cos_step(const double* x, double* s, double* c, int n) {
+template <class T>
+void sin_cos_step(const T* x, T* s, T* c, int n) {
   if (n > 0) return recurrence::sin_cos(x, s, c, n);
   s[0] = std::sin(x[0]);
   c[0] = std::cos(x[0]);
 }
 
-inline void sinh_cosh_step(const double* x, double* s, double* c, int n) {
+template <class T>
+void sinh_cosh_step(const T* x, T* s, T* c, int n) {
   if (n > 0) return recurrence::sinh_cosh(x, s, c, n);
   s[0] = std::sinh(x[0]);
   c[0] = std::cosh(x[0]);
 }
 
-inline void asin_step(const double* x, double* y, double* root, int n) {
+template <class T>
+void asin_step(const T* x, T* y, T* root, int n) {
   if (n > 0) return recurrence::asin(x, y, root, n);
   y[0] = std::asin(x[0]);
   root[0] = std::sqrt((1.0 - x[0]) * (1.0 + x[0]));
@@ -76,12 +82,12 @@ inline void asin_step(const double* x, double* y, double* root, int n) {
 
 /// The n-th coefficient of an instruction without branches. `row(i)` are the coefficients of slot i; `u` and `v` are
 /// the instruction's first and second row of its own.
-template <class Row>
-void smooth_step(const Instruction& instruction, const Row& row, double* u, double* v, int n) {
-  const double* a = row(instruction.a);
-  const double* b = row(instruction.b);
-  double* r = row(instruction.result);
-  const double k = instruction.constant;
+template <class T, class Row>
+void smooth_step(const Instruction& instruction, const Row& row, T* u, T* v, int n) {
+  const T* a = row(instruction.a);
+  const T* b = row(instruction.b);
+  T* r = row(instruction.result);
+  const T k = instruction.constant;
   switch (instruction.opcode) {
     case Opcode::add:
       r[n] = a[n] + b[n];
@@ -108,7 +114,7 @@ void smooth_step(const Instruction& instruction, const Row& row, double* u, doub
       r[n] = a[n] / k;
       break;
     case Opcode::constant_over:
-      r[n] = recurrence::divide(n == 0 ? k : 0.0, a, r, n);
+      r[n] = recurrence::divide(n == 0 ? k : T(0.0), a, r, n);
       break;
     case Opcode::negate:
       r[n] = -a[n];
@@ -125,7 +131,7 @@ void smooth_step(const Instruction& instruction, const Row& row, double* u, doub
       r[n] = n == 0 ? std::pow(a[0], k) : power_step(a, r, k, n);
       break;
     case Opcode::cbrt:
-      r[n] = n == 0 ? std::cbrt(a[0]) : power_step(a, r, 1.0 / 3.0, n);
+      r[n] = n == 0 ? std::cbrt(a[0]) : power_step(a, r, T(1.0) / 3, n);
       break;
     case Opcode::exp:
       r[n] = n == 0 ? std::exp(a[0]) : recurrence::exp(a, r, n);
@@ -135,7 +141,7 @@ void smooth_step(const Instruction& instruction, const Row& row, double* u, doub
       break;
     case Opcode::log10:  // log a / log 10: u = log a
       u[n] = n == 0 ? std::log(a[0]) : recurrence::log(a, u, n);
-      r[n] = n == 0 ? std::log10(a[0]) : u[n] / std::log(10.0);
+      r[n] = n == 0 ? std::log10(a[0]) : u[n] / std::log(T(10.0));
       break;
     case Opcode::sin:
       sin_cos_step(a, r, u, n);

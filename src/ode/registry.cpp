@@ -79,14 +79,15 @@ std::unique_ptr<AnyStepper> make_multistep(System& system, const StepOptions& op
 }
 #endif
 
+template <class Number>
 std::unique_ptr<AnyStepper> make_taylor(System& system, const StepOptions& options) {
-  using S = TaylorStepper<SystemExpansion>;
-  return std::make_unique<WrappedStepper<S>>(S(SystemExpansion(system), options));
+  using S = TaylorStepper<SystemExpansion<Number>>;
+  return std::make_unique<WrappedStepper<S>>(S(SystemExpansion<Number>(system), options));
 }
 
 std::unique_ptr<AnyStepper> make_series(System& system, const StepOptions& options) {
-  using S = SeriesStepper<SystemExpansion>;
-  return std::make_unique<WrappedStepper<S>>(S(SystemExpansion(system), options));
+  using S = SeriesStepper<SystemExpansion<>>;
+  return std::make_unique<WrappedStepper<S>>(S(SystemExpansion<>(system), options));
 }
 
 std::unique_ptr<AnyStepper> make_doubling(System& system, const StepOptions& options) {
@@ -149,7 +150,7 @@ MethodInfo row(std::string_view name, Aliases aliases, int order, int dense_orde
 }  // namespace
 
 std::span<const MethodInfo> methods() {
-  constexpr int kSeriesOrder = SeriesStepper<SystemExpansion>::kDefaultOrder;
+  constexpr int kSeriesOrder = SeriesStepper<SystemExpansion<>>::kDefaultOrder;
   static const std::vector<MethodInfo> table = {
       runge_kutta<EulerTableau>("euler", {"SEDEuler0"}, "course: Euler (F32)", "the rate at the start of the step"),
       runge_kutta<MidpointTableau>("midpoint", {"rk2"}, "course: Runge-Kutta 2 (F29)", "the rate at its middle"),
@@ -161,9 +162,11 @@ std::span<const MethodInfo> methods() {
       runge_kutta<Dopri5Tableau>("dopri5", {"ode45"}, "MATLAB: ode45 (F59)", "Dormand and Prince's pair 5(4)"),
       runge_kutta<Dop853Tableau>("dop853", {}, "", "Dormand and Prince's method 8(5,3)"),
       row("series", {}, kSeriesOrder, kSeriesOrder, StepControl::fixed, "course: series of a chosen order (F10-F11)",
-          "exact derivatives; [method] order", make_series, SeriesStepper<SystemExpansion>::kMaxOrder),
+          "exact derivatives; [method] order", make_series, SeriesStepper<SystemExpansion<>>::kMaxOrder),
       row("taylor", {}, 0, 0, StepControl::adaptive, "course: Taylor series (F10)",
-          "exact derivatives; order chosen from the tolerance", make_taylor, kMaxTaylorOrder),
+          "exact derivatives; order chosen from the tolerance", make_taylor<double>, kMaxTaylorOrder),
+      row("taylor-extended", {}, 0, 0, StepControl::adaptive, "",
+          "taylor in extended precision: for motions that amplify rounding", make_taylor<long double>, kMaxTaylorOrder),
       gauss("gauss6", {}, "", "Gauss collocation, symplectic: long runs keep their energy"),
 #ifdef TRAJET_WITH_SUNDIALS
       multistep<MultistepFormula::adams>("adams", {"ode113"}, "MATLAB: ode113 (F59)",

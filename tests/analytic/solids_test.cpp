@@ -126,6 +126,11 @@ TEST(Solids, AsymmetricTopWithinItsTolerance) {
         EXPECT_LE((w_body(b) - exact.w_WB_B(100.0)).norm(), bound) << c.method << " " << way << " " << tolerance;
         EXPECT_LE(angle_between(b.orientation, exact.q_WB(100.0)), bound) << c.method << " " << way << " " << tolerance;
       }
+  // in extended precision; the closed form itself is rounded to 4e-14
+  const Way extended = test::controlled("taylor-extended", 1e-15);
+  const BodyState b = final_of(run_body(kTop, "quaternion-normalized", extended, 100.0), "b");
+  EXPECT_LE((w_body(b) - exact.w_WB_B(100.0)).norm(), 1e-13);
+  EXPECT_LE(angle_between(b.orientation, exact.q_WB(100.0)), 1e-13);
 }
 
 TEST(Solids, AsymmetricTopAfterAHundredFlips) {

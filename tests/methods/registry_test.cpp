@@ -36,13 +36,18 @@ class ProblemSystem final : public System {
   void expand(double t, const double* q, int order, double* coefficients) override {
     expansion_.expand(t, State(Eigen::Map<const State>(q)), order, coefficients);
   }
-  double duration_until_branch(double duration) override { return expansion_.duration_until_branch(duration); }
+  void expand(double t, const long double* q, int order, long double* coefficients) override {
+    using NumberState = typename decltype(extended_)::NumberState;
+    extended_.expand(t, NumberState(Eigen::Map<const NumberState>(q)), order, coefficients);
+  }
+  double duration_until_branch(double duration) override { return duration; }  // the problems have no branches
   int polynomial_degree() const override { return -1; }
   Structure structure() const override { return structure_of(Problem(), Problem::kDimension); }
 
  private:
   DifferentiableLaw<Problem, Problem::kDimension> law_{Problem()};
   LawExpansion<Problem, Problem::kDimension> expansion_{Problem(), Problem::kDimension};
+  LawExpansion<Problem, Problem::kDimension, long double> extended_{Problem(), Problem::kDimension};
 };
 
 /// Calls f with a problem that the method can solve: the drag, or, for methods that refuse it, an acceleration of time.

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <functional>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -97,6 +99,51 @@ TEST(ProgramExpansion, every_operation_agrees_with_series_arithmetic) {
     std::vector<double> coefficients(expected.size());
     expansion.expand(0.9, q.data(), kOrder, coefficients.data());
     expect_coefficients(coefficients, expected, law[0] + "; " + law[1] + "; " + law[2]);
+  }
+}
+
+TEST(ProgramExpansion, is_extended_where_its_coefficients_are) {
+  using Number = long double;
+  struct Known {
+    const char* rate;
+    std::function<Number(Number)> value;
+  };
+  const Known functions[] = {
+      {"1/t", [](Number t) { return 1 / t; }},
+      {"t^2/3", [](Number t) { return t * t / 3; }},
+      {"sqrt(t)", [](Number t) { return std::sqrt(t); }},
+      {"cbrt(t)", [](Number t) { return std::cbrt(t); }},
+      {"exp(t)", [](Number t) { return std::exp(t); }},
+      {"log(t)", [](Number t) { return std::log(t); }},
+      {"log10(t)", [](Number t) { return std::log10(t); }},
+      {"sin(t)", [](Number t) { return std::sin(t); }},
+      {"cos(t)", [](Number t) { return std::cos(t); }},
+      {"tan(t)", [](Number t) { return std::tan(t); }},
+      {"sinh(t)", [](Number t) { return std::sinh(t); }},
+      {"cosh(t)", [](Number t) { return std::cosh(t); }},
+      {"tanh(t)", [](Number t) { return std::tanh(t); }},
+      {"asin(t)", [](Number t) { return std::asin(t); }},
+      {"acos(t)", [](Number t) { return std::acos(t); }},
+      {"atan(t)", [](Number t) { return std::atan(t); }},
+      {"atan2(t, 2)", [](Number t) { return std::atan2(t, Number(2)); }},
+      {"t^0.3", [](Number t) { return std::pow(t, Number(0.3)); }},
+      {"t^t", [](Number t) { return std::pow(t, t); }},
+      {"norm([t, 1, 2])", [](Number t) { return std::sqrt(t * t + 5); }},
+      {"abs(t - 1)", [](Number t) { return 1 - t; }},
+      {"max(t/3, t^2/3)", [](Number t) { return t / 3; }},
+      {"where(t < 1, t/7, 0)", [](Number t) { return t / 7; }},
+  };
+  constexpr int kOrder = 24;
+  const Number start = 0.0L, tau = 0.01L;  // the terms left out are below (0.01 / 0.5)^24 = 1e-41
+  for (const Known& function : functions) {
+    ProgramExpansionT<Number> expansion(compile({function.rate}));
+    std::vector<Number> c(kOrder + 1);
+    expansion.expand(0.5, &start, kOrder, c.data());
+    Number rate = 0;
+    for (int k = kOrder; k >= 1; --k) rate = rate * tau + static_cast<Number>(k) * c[static_cast<std::size_t>(k)];
+    // the function and its first coefficients are rounded, relative to numbers up to 2
+    EXPECT_NEAR(static_cast<double>(rate - function.value(0.5L + tau)), 0.0, 16 * std::numeric_limits<Number>::epsilon())
+        << function.rate;
   }
 }
 

@@ -19,11 +19,14 @@ namespace trajet {
 /// stay on the branch taken at the start. An expansion therefore holds only up to `duration_until_branch`. Where the
 /// function that decides is zero at the start, the branch is the one behind the start in the direction of the search
 /// before.
-class ProgramExpansion {
+///
+/// `T`, double or long double, is the type of the coefficients.
+template <class T>
+class ProgramExpansionT {
  public:
   static constexpr int kMaxOrder = kMaxPolynomialDegree;
 
-  explicit ProgramExpansion(Program program);
+  explicit ProgramExpansionT(Program program);
 
   int dimension() const { return static_cast<int>(program_.outputs.size()); }
   const Program& program() const { return program_; }
@@ -31,7 +34,7 @@ class ProgramExpansion {
   /// The Taylor coefficients of the solution through (t, q) up to (time - t)^order, order 1 … kMaxOrder.
   /// Coefficients that do not exist (the root of something that vanishes) are infinite or not-a-number.
   /// `coefficients` is (dimension x order+1), column-major; column 0 becomes q.
-  void expand(double t, const double* q, int order, double* coefficients);
+  void expand(double t, const T* q, int order, T* coefficients);
 
   /// How long, up to `duration` (s, either sign), the branches of the last expansion hold. The next expansion, if it
   /// starts there from the state reached, takes those behind. 0: they do not hold at all; expand again from the same
@@ -64,12 +67,12 @@ class ProgramExpansion {
     int branch = -1;  ///< index of its Branch
   };
 
-  double* row(int index) { return rows_.data() + static_cast<std::ptrdiff_t>(index) * stride_; }
+  T* row(int index) { return rows_.data() + static_cast<std::ptrdiff_t>(index) * stride_; }
   void reserve(int order);
   void run(const Step& step, int n);
   void run_branch(const Step& step, Branch& branch, int n);
   double decide_sign(Branch& branch, int n);
-  void decide_interval(const Step& step, Branch& branch, double x);
+  void decide_interval(const Step& step, Branch& branch, T x);
   /// When the branch ends, from 0 to `duration` on the axis of the rows; of an interval, at which border.
   BranchTime end_of_branch(const Branch& branch, double duration, double& border) const;
   void forget_forced_branches();
@@ -77,7 +80,7 @@ class ProgramExpansion {
   static void force(Branch& branch, double sign, double border);
   void remember_end(double s);
   /// Whether (t, q) is where the last search for the end of a branch ended.
-  bool continues_at(double t, const double* q) const;
+  bool continues_at(double t, const T* q) const;
 
   Program program_;
   std::vector<Step> steps_;
@@ -86,7 +89,7 @@ class ProgramExpansion {
   int stride_ = 0;
   /// Taylor coefficients in s = row_direction (time - start): slots of the program, then scratch.  // (row_count x
   /// stride)
-  std::vector<double> rows_;
+  std::vector<T> rows_;
   double row_direction_ = 1.0;
   double direction_ = 1.0;  ///< of the next expansion: that of the last search
   int order_ = 0;
@@ -96,5 +99,9 @@ class ProgramExpansion {
   std::vector<double> end_state_;      // (dimension)
   std::vector<double> end_tolerance_;  // (dimension)
 };
+
+extern template class ProgramExpansionT<double>;
+extern template class ProgramExpansionT<long double>;
+using ProgramExpansion = ProgramExpansionT<double>;
 
 }  // namespace trajet

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cmath>
+#include <type_traits>
 
 #include "trajet/math/force_inline.hpp"
 
@@ -27,5 +28,14 @@ TRAJET_INLINE double max(double a, double b) { return a < b ? b : a; }
 
 /// Length of (x, y, z), by the plain formula: no overflow protection, the same rounding on every machine.
 TRAJET_INLINE double norm3(double x, double y, double z) { return std::sqrt(x * x + y * y + z * z); }
+
+// The same of extended precision, for coefficients of power series.
+inline bool equal(long double a, long double b) { return a == b; }
+inline double sign(long double x) { return x > 0.0L ? 1.0 : x < 0.0L ? -1.0 : static_cast<double>(x); }
+inline long double norm3(long double x, long double y, long double z) { return std::sqrt(x * x + y * y + z * z); }
+
+/// The plain number that constant factors of a number type have: none may be coarser than the type.
+template <class T>
+using Factor = std::conditional_t<std::is_same_v<T, long double>, long double, double>;
 
 }  // namespace trajet

@@ -85,18 +85,18 @@ TRAJET_INLINE T sqrt(const T* x, const T* s, T& half_inverse, Order n) {
 /// e = exp(x), n >= 1:  n e[n] = sum_{k=1..n} k x[k] e[n - k]
 template <class T, class Order>
 TRAJET_INLINE T exp(const T* x, const T* e, Order n) {
-  return derivative_convolution(x, e, n, n) * (1.0 / n);
+  return derivative_convolution(x, e, n, n) * (Factor<T>(1.0) / n);
 }
 
 /// l = log(x), n >= 1:  x[0] l[n] = x[n] - (1/n) sum_{k=1..n-1} k l[k] x[n - k]
 template <class T, class Order>
 TRAJET_INLINE T log(const T* x, const T* l, Order n) {
-  return (x[n] - derivative_convolution(l, x, n - 1, n) * (1.0 / n)) / x[0];
+  return (x[n] - derivative_convolution(l, x, n - 1, n) * (Factor<T>(1.0) / n)) / x[0];
 }
 
 /// p = x^alpha, n >= 1:  n x[0] p[n] = sum_{k=1..n} (alpha k - (n - k)) x[k] p[n - k]
 template <class T, class Order>
-TRAJET_INLINE T power(const T* x, const T* p, double alpha, Order n) {
+TRAJET_INLINE T power(const T* x, const T* p, Factor<T> alpha, Order n) {
   T sum = T(0.0);
   for (int k = n; k >= 1; --k) sum += ((alpha * k - (n - k)) * x[k]) * p[n - k];
   return sum / (static_cast<double>(n) * x[0]);
@@ -105,42 +105,42 @@ TRAJET_INLINE T power(const T* x, const T* p, double alpha, Order n) {
 /// (s, c) = (sin x, cos x), n >= 1:  n s[n] = sum k x[k] c[n - k],  n c[n] = - sum k x[k] s[n - k]
 template <class T, class Order>
 TRAJET_INLINE void sin_cos(const T* x, T* s, T* c, Order n) {
-  s[n] = derivative_convolution(x, c, n, n) * (1.0 / n);
-  c[n] = derivative_convolution(x, s, n, n) * (-1.0 / n);
+  s[n] = derivative_convolution(x, c, n, n) * (Factor<T>(1.0) / n);
+  c[n] = derivative_convolution(x, s, n, n) * (Factor<T>(-1.0) / n);
 }
 
 /// (s, c) = (sinh x, cosh x), n >= 1
 template <class T, class Order>
 TRAJET_INLINE void sinh_cosh(const T* x, T* s, T* c, Order n) {
-  s[n] = derivative_convolution(x, c, n, n) * (1.0 / n);
-  c[n] = derivative_convolution(x, s, n, n) * (1.0 / n);
+  s[n] = derivative_convolution(x, c, n, n) * (Factor<T>(1.0) / n);
+  c[n] = derivative_convolution(x, s, n, n) * (Factor<T>(1.0) / n);
 }
 
 /// t = tan x, n >= 1, with w = 1 + t^2:  n t[n] = sum k x[k] w[n - k]
 template <class T, class Order>
 TRAJET_INLINE void tan(const T* x, T* t, T* w, Order n) {
-  t[n] = derivative_convolution(x, w, n, n) * (1.0 / n);
+  t[n] = derivative_convolution(x, w, n, n) * (Factor<T>(1.0) / n);
   w[n] = square<T>(t, n);
 }
 
 /// t = tanh x, n >= 1, with w = 1 - t^2:  n t[n] = sum k x[k] w[n - k]
 template <class T, class Order>
 TRAJET_INLINE void tanh(const T* x, T* t, T* w, Order n) {
-  t[n] = derivative_convolution(x, w, n, n) * (1.0 / n);
+  t[n] = derivative_convolution(x, w, n, n) * (Factor<T>(1.0) / n);
   w[n] = -square<T>(t, n);
 }
 
 /// y = asin x, n >= 1, with r = sqrt(1 - x^2):  sum_{k=1..n} k y[k] r[n - k] = n x[n]
 template <class T, class Order>
 TRAJET_INLINE void asin(const T* x, T* y, T* r, Order n) {
-  y[n] = (x[n] - derivative_convolution(static_cast<const T*>(y), static_cast<const T*>(r), n - 1, n) * (1.0 / n)) / r[0];
+  y[n] = (x[n] - derivative_convolution(static_cast<const T*>(y), static_cast<const T*>(r), n - 1, n) * (Factor<T>(1.0) / n)) / r[0];
   r[n] = (-square<T>(x, n) - convolution(static_cast<const T*>(r), static_cast<const T*>(r), 1, n - 1, n)) / (2.0 * r[0]);
 }
 
 /// y = atan x, n >= 1, with w = 1 + x^2:  sum_{k=1..n} k y[k] w[n - k] = n x[n]
 template <class T, class Order>
 TRAJET_INLINE void atan(const T* x, T* y, T* w, Order n) {
-  y[n] = (x[n] - derivative_convolution(static_cast<const T*>(y), static_cast<const T*>(w), n - 1, n) * (1.0 / n)) / w[0];
+  y[n] = (x[n] - derivative_convolution(static_cast<const T*>(y), static_cast<const T*>(w), n - 1, n) * (Factor<T>(1.0) / n)) / w[0];
   w[n] = square<T>(x, n);
 }
 
@@ -148,7 +148,7 @@ TRAJET_INLINE void atan(const T* x, T* y, T* w, Order n) {
 template <class T, class Order>
 TRAJET_INLINE void atan2(const T* y, const T* x, T* a, T* w, Order n) {
   const T wedge = derivative_convolution(y, x, n, n) - derivative_convolution(x, y, n, n);
-  a[n] = (wedge - derivative_convolution(static_cast<const T*>(a), static_cast<const T*>(w), n - 1, n)) * (1.0 / n) / w[0];
+  a[n] = (wedge - derivative_convolution(static_cast<const T*>(a), static_cast<const T*>(w), n - 1, n)) * (Factor<T>(1.0) / n) / w[0];
   w[n] = square<T>(x, n) + square<T>(y, n);
 }
 
@@ -164,7 +164,7 @@ namespace detail {
 template <class T>
 [[gnu::noinline]] T norm3_of_vanishing(const T* x, const T* y, const T* z, const T* s, T& half_inverse, int n) {
   int m = 0;
-  while (m <= n && equal(x[m], 0.0) && equal(y[m], 0.0) && equal(z[m], 0.0)) ++m;
+  while (m <= n && equal(x[m], T(0.0)) && equal(y[m], T(0.0)) && equal(z[m], T(0.0))) ++m;
   if (m > n) return T(0.0);
   if (n == m) {
     const T value = trajet::norm3(x[m], y[m], z[m]);
@@ -187,7 +187,7 @@ TRAJET_INLINE T norm3(const T* x, const T* y, const T* z, const T* s, T& half_in
     half_inverse = 0.5 / value;
     return value;
   }
-  if constexpr (std::is_same_v<T, double>) {
+  if constexpr (std::is_floating_point_v<T>) {
     if (s[0] == 0.0) [[unlikely]]
       return detail::norm3_of_vanishing(x, y, z, s, half_inverse, n);
   }

@@ -72,11 +72,11 @@ class Replay {
   static constexpr std::integral_constant<int, N> kOrder{};
 
   Replay() = default;
-  TRAJET_INLINE Replay(double constant) : constant_(constant) {}  // NOLINT(google-explicit-constructor)
+  TRAJET_INLINE Replay(Factor<T> constant) : constant_(constant) {}  // NOLINT(google-explicit-constructor)
   TRAJET_INLINE Replay(ReplayPass<T>* pass, T* base, int slot) : pass_(pass), base_(base), slot_(slot) {}
 
   TRAJET_INLINE bool is_constant() const { return pass_ == nullptr; }
-  TRAJET_INLINE double constant() const { return constant_; }
+  TRAJET_INLINE Factor<T> constant() const { return constant_; }
   TRAJET_INLINE ReplayPass<T>* pass() const { return pass_; }
   TRAJET_INLINE int slot() const { return slot_; }
   /// Its coefficients so far.
@@ -177,17 +177,17 @@ class Replay {
   friend TRAJET_INLINE Replay atan2(const Replay& y, const Replay& x) { return detail::angle_of(y, x); }
 
  private:
-  TRAJET_INLINE Replay plus(double constant) const {
+  TRAJET_INLINE Replay plus(Factor<T> constant) const {
     return record(*this, [&](T*) { return N == 0 ? newest() + constant : newest(); });
   }
-  TRAJET_INLINE Replay times(double constant) const {
+  TRAJET_INLINE Replay times(Factor<T> constant) const {
     return record(*this, [&](T*) { return newest() * constant; });
   }
 
   ReplayPass<T>* pass_ = nullptr;
   T* base_ = nullptr;  // of the tape: one address for all, so that the compiler sees which coefficients are the same
   int slot_ = -1;
-  double constant_ = 0.0;
+  Factor<T> constant_ = 0.0;
 };
 
 namespace detail {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cmath>
+#include <numbers>
 
 #include "trajet/math/replay.hpp"
 
@@ -74,18 +75,18 @@ TRAJET_INLINE Replay<T, N> log(const Replay<T, N>& x) {
 }
 template <class T, int N>
 TRAJET_INLINE Replay<T, N> log10(const Replay<T, N>& x) {
-  return log(x) * (1.0 / std::log(10.0));
+  return log(x) * (1.0 / std::log(Factor<T>(10.0)));
 }
 template <class T, int N>
 TRAJET_INLINE Replay<T, N> cbrt(const Replay<T, N>& x) {
   using std::cbrt;
   return detail::replay_function(
       x, [](const auto& v) { return cbrt(v); },
-      [](const T* a, T* p, auto n) { return recurrence::power<T>(a, p, 1.0 / 3.0, n); });
+      [](const T* a, T* p, auto n) { return recurrence::power<T>(a, p, Factor<T>(1.0) / 3, n); });
 }
 /// x^alpha. Small non-negative integers by products, which need no x != 0.
 template <class T, int N>
-TRAJET_INLINE Replay<T, N> pow(const Replay<T, N>& x, double alpha) {
+TRAJET_INLINE Replay<T, N> pow(const Replay<T, N>& x, Factor<T> alpha) {
   if (alpha == std::floor(alpha) && alpha >= 0.0 && alpha <= 64.0) {
     Replay<T, N> result(1.0), base = x;
     for (int exponent = static_cast<int>(alpha); exponent > 0; exponent /= 2) {
@@ -158,7 +159,7 @@ TRAJET_INLINE Replay<T, N> asin(const Replay<T, N>& x) {
 }
 template <class T, int N>
 TRAJET_INLINE Replay<T, N> acos(const Replay<T, N>& x) {
-  constexpr double kHalfPi = 1.5707963267948966;
+  constexpr Factor<T> kHalfPi = std::numbers::pi_v<Factor<T>> / 2;
   return kHalfPi - asin(x);
 }
 template <class T, int N>

@@ -30,13 +30,16 @@ using Rk4ThreeEighths = RungeKuttaMethod<Rk4ThreeEighthsTableau>;
 using Bs32 = RungeKuttaMethod<Bs32Tableau>;
 using Dopri5 = RungeKuttaMethod<Dopri5Tableau>;
 using Dop853 = RungeKuttaMethod<Dop853Tableau>;
-struct Taylor {
+template <class Number>
+struct TaylorMethod {
   template <int Dim, class Law>
   static auto make_stepper(Law law, int dimension, const StepOptions& options) {
-    using Expansion = LawExpansion<Law, Dim>;
+    using Expansion = LawExpansion<Law, Dim, Number>;
     return TaylorStepper<Expansion>(Expansion(std::move(law), dimension), options);
   }
 };
+using Taylor = TaylorMethod<double>;
+using TaylorExtended = TaylorMethod<long double>;
 
 /// What solve() needs beside the problem.
 struct SolveOptions : StepOptions {

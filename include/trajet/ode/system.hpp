@@ -26,8 +26,10 @@ class System {
   ///
   /// `coefficients` is (dimension x order+1), column-major: column k belongs to (time - t)^k; column 0 is q.
   virtual void expand(double t, const double* q, int order, double* coefficients) = 0;
+  /// The same in extended precision.
+  virtual void expand(double t, const long double* q, int order, long double* coefficients) = 0;
 
-  /// Whether the last expansion stays the solution's up to `duration` (s, either sign) later: the time until the law
+  /// Whether the last expansion, in either precision, stays the solution's up to `duration` (s, either sign) later: the time until the law
   /// takes another branch (a comparison, abs, sign, min, max, floor, the next interval of a table), or `duration` if it
   /// does not. The next expansion, if it starts there, takes the branch behind it.
   virtual double duration_until_branch(double duration) = 0;

@@ -6,6 +6,7 @@
 #include <limits>
 #include <numbers>
 #include <optional>
+#include <type_traits>
 #include <utility>
 
 #include "trajet/ode/law_expansion.hpp"
@@ -43,10 +44,13 @@ inline int taylor_order(double rtol) {
 /// - Where the solutions are polynomials (constant acceleration), the step is the whole run and exact.
 /// - Where the law takes another branch (a comparison, abs, …), the step ends there.
 /// - Where there is no power series (a speed that vanishes on a curve), a step of Dormand and Prince's method leads past.
+/// - An expansion in extended precision carries the state in it from step to step: what a problem makes of rounding is
+///   less by the ratio of the precisions.
 template <class Expansion>
 class TaylorStepper {
  public:
   using State = typename Expansion::State;
+  using Number = typename Expansion::Number;  // of the coefficients and of the state between steps
   static constexpr int kDimension = State::RowsAtCompileTime;
 
   TaylorStepper(Expansion expansion, const StepOptions& options)
@@ -59,6 +63,7 @@ class TaylorStepper {
     inverse_order_ = 1.0 / order_;
     inverse_order_less_one_ = 1.0 / (order_ - 1);
     segment_.resize(expansion_.dimension(), order_);
+    if constexpr (kIsExtended) series_.resize(expansion_.dimension(), order_ + 1);
     inverse_tolerance_.resize(expansion_.dimension());
   }
 
@@ -72,7 +77,8 @@ class TaylorStepper {
     const double remaining = t_limit - t_;
     double step = 0.0;
     for (int expansions = 0; expansions < kMaxBranchChanges; ++expansions) {
-      expansion_.expand(t_, q_, order_, segment_.coefficients().data());
+      expansion_.expand(t_, q_, order_, series().data());
+      if constexpr (kIsExtended) segment_.coefficients() = series_.template cast<double>();
       ++statistics_.law_evaluations;
       step = exact_ ? remaining : std::copysign(step_within_tolerance(t_limit), remaining);
       step = expansion_.duration_until_branch(step);
@@ -105,10 +111,20 @@ class TaylorStepper {
   void amend(const State& q) { set_state(q); }
 
   double time() const { return t_; }
-  const State& state() const { return q_; }
+  const State& state() const {
+    if constexpr (kIsExtended) {
+      return rounded_;
+    } else {
+      return q_;
+    }
+  }
   const StepStatistics& statistics() const { return statistics_; }
 
  private:
+  static constexpr bool kIsExtended = !std::is_same_v<Number, double>;
+  using NumberState = Eigen::Matrix<Number, kDimension, 1>;
+  using Series = Eigen::Matrix<Number, kDimension, Eigen::Dynamic, Segment<kDimension>::Coefficients::Options>;
+
   /// The law on plain numbers, for the steps without a series.
   struct Rate {
     const Expansion* expansion;
@@ -138,7 +154,7 @@ class TaylorStepper {
     const double remaining = std::abs(t_limit - t_);
     double finite = 0.0;  // becomes not-a-number with any coefficient that is not finite
     for (int i = 0; i < segment_.dimension(); ++i) {
-      inverse_tolerance_[i] = 1.0 / (options_.atol + options_.rtol * std::abs(q_[i]));
+      inverse_tolerance_[i] = 1.0 / (options_.atol + options_.rtol * std::abs(segment_.coefficients()(i, 0)));
       finite += 0.0 * segment_.coefficients()(i, order_);
     }
     if (finite != 0.0) return std::numeric_limits<double>::quiet_NaN();
@@ -164,21 +180,32 @@ class TaylorStepper {
 
   template <class Vector>
   void set_state(const Vector& q) {
-    q_ = q;
-    remainder_ = State::Zero(q.size());
+    q_ = q.template cast<Number>();
+    remainder_ = NumberState::Zero(q.size());
+    if constexpr (kIsExtended) rounded_ = q;
+  }
+
+  /// The coefficients of the last expansion, in its numbers.
+  auto& series() {
+    if constexpr (kIsExtended) {
+      return series_;
+    } else {
+      return segment_.coefficients();
+    }
   }
 
   /// q(t0 + tau), where what rounding takes from the sum of q and its change waits for the next step: over many steps
   /// the state's own rounding does not add up, only that of its changes.
   void move_state(double tau) {
-    const auto& c = segment_.coefficients();
+    const auto& c = series();
     q_ = c.col(order_);
-    for (int k = order_ - 1; k >= 1; --k) q_ = q_ * tau + c.col(k);
+    for (int k = order_ - 1; k >= 1; --k) q_ = q_ * Number(tau) + c.col(k);
     for (int i = 0; i < segment_.dimension(); ++i) {
-      const double change = q_[i] * tau + remainder_[i];
+      const Number change = q_[i] * tau + remainder_[i];
       q_[i] = c(i, 0) + change;
       remainder_[i] = change - (q_[i] - c(i, 0));
     }
+    if constexpr (kIsExtended) rounded_ = q_.template cast<double>();
   }
 
   StepStatus accept(double t_limit, double step) {
@@ -188,7 +215,7 @@ class TaylorStepper {
     move_state(t_ - t0);
     if (!q_.allFinite()) {
       t_ = t0;
-      set_state(segment_.coefficients().col(0));
+      set_state(State(segment_.coefficients().col(0)));
       return StepStatus::not_finite;
     }
     // a step cut short by the limit says nothing about the next one
@@ -202,7 +229,7 @@ class TaylorStepper {
   StepStatus advance_by_runge_kutta(double t_limit, double step) {
     if (!runge_kutta_) runge_kutta_.emplace(Rate{&expansion_}, StepOptions{.rtol = options_.rtol, .atol = options_.atol});
     const StepStatistics before = runge_kutta_->statistics();
-    runge_kutta_->start(t_, q_);
+    runge_kutta_->start(t_, state());
     const StepStatus status = runge_kutta_->advance(t_limit);
     statistics_.law_evaluations += runge_kutta_->statistics().law_evaluations - before.law_evaluations;
     statistics_.rejected_steps += runge_kutta_->statistics().rejected_steps - before.rejected_steps;
@@ -228,23 +255,28 @@ class TaylorStepper {
   double t_ = 0.0;
   double start_time_ = 0.0;
   double previous_step_ = 0.0;  // s, >= 0; 0: none yet
-  State q_;
-  State remainder_;  // the state is q_ + remainder_
+  NumberState q_;
+  NumberState remainder_;  // the state is q_ + remainder_
+  State rounded_;          // q_ in double, where that is another type
+  Series series_;          // the coefficients of segment_, likewise
   State inverse_tolerance_;
   Segment<kDimension> segment_;
   std::optional<Fallback> runge_kutta_;
   StepStatistics statistics_;
 };
 
-/// The expansion of a run-time System.
+/// The expansion of a run-time System, in coefficients of type T, double or long double.
+template <class T = double>
 class SystemExpansion {
  public:
+  using Number = T;
   using State = Eigen::VectorXd;
+  using NumberState = Eigen::VectorX<T>;
 
   explicit SystemExpansion(System& system) : system_(&system) {}
   int dimension() const { return system_->dimension(); }
   void rate(double t, const State& q, State& dq) const { system_->rate(t, q.data(), dq.data()); }
-  void expand(double t, const State& q, int order, double* coefficients) {
+  void expand(double t, const NumberState& q, int order, T* coefficients) {
     system_->expand(t, q.data(), order, coefficients);
   }
   double duration_until_branch(double duration) { return system_->duration_until_branch(duration); }

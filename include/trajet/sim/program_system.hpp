@@ -25,8 +25,16 @@ class ProgramSystem : public System {
   }
   void expand(double t, const double* q, int order, double* coefficients) override {
     expansion_.expand(t, q, order, coefficients);
+    extended_was_last_ = false;
   }
-  double duration_until_branch(double duration) override { return expansion_.duration_until_branch(duration); }
+  void expand(double t, const long double* q, int order, long double* coefficients) override {
+    if (!extended_) extended_.emplace(expansion_.program());
+    extended_->expand(t, q, order, coefficients);
+    extended_was_last_ = true;
+  }
+  double duration_until_branch(double duration) override {
+    return extended_was_last_ ? extended_->duration_until_branch(duration) : expansion_.duration_until_branch(duration);
+  }
   int polynomial_degree() const override { return trajet::polynomial_degree(expansion_.program()); }
   Structure structure() const override { return structure_of(expansion_.program()); }
 
@@ -39,6 +47,8 @@ class ProgramSystem : public System {
 
  private:
   ProgramExpansion expansion_;
+  std::optional<ProgramExpansionT<long double>> extended_;  // made when first asked for
+  bool extended_was_last_ = false;
   mutable Evaluator<double> evaluator_;              // its slots are scratch
   mutable std::optional<ProgramJacobian> jacobian_;  // made when first asked for: most methods never do
 };

@@ -1,3 +1,5 @@
+#pragma once
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -9,20 +11,21 @@
 
 /// The part of ProgramExpansion that deals with branches: which one an instruction takes, and how long it holds.
 namespace trajet {
-namespace {
+namespace detail {
 
 /// Two times are the same, relative to their size, where a step from one to the other is not worth making.
-constexpr double kSameTime = 64.0 * std::numeric_limits<double>::epsilon();
+inline constexpr double kSameTime = 64.0 * std::numeric_limits<double>::epsilon();
 /// Two states are the same, relative to the terms of their series, where only rounding lies between them: an event that
 /// sets the state at the end of a step moves it further.
-constexpr double kSameState = 1e-12;
+inline constexpr double kSameState = 1e-12;
 
-}  // namespace
+}  // namespace detail
 
 /// The sign that the branch's function has just behind the start, as far as its coefficients up to n tell: -1, 0, 1.
-double ProgramExpansion::decide_sign(Branch& branch, int n) {
+template <class T>
+double ProgramExpansionT<T>::decide_sign(Branch& branch, int n) {
   if (n == 0) {
-    const double value = row(branch.function)[0];
+    const T value = row(branch.function)[0];
     branch.starts_at_zero = branch.forced_sign.has_value() || value == 0.0;
     branch.sign = branch.forced_sign.value_or(trajet::sign(value));
   } else if (branch.sign == 0.0) {
@@ -31,9 +34,10 @@ double ProgramExpansion::decide_sign(Branch& branch, int n) {
   return branch.sign;
 }
 
-void ProgramExpansion::decide_interval(const Step& step, Branch& branch, double x) {
+template <class T>
+void ProgramExpansionT<T>::decide_interval(const Step& step, Branch& branch, T x) {
   const bool forced = branch.forced_sign.has_value();
-  const double place = forced ? branch.forced_border : x;
+  const double place = forced ? branch.forced_border : static_cast<double>(x);
   if (step.instruction.opcode == Opcode::floor) {
     branch.lower = std::floor(place);
     if (forced && *branch.forced_sign < 0.0) branch.lower -= 1.0;
@@ -51,13 +55,14 @@ void ProgramExpansion::decide_interval(const Step& step, Branch& branch, double 
   branch.starts_at_zero = forced || x == branch.lower || x == branch.upper;
 }
 
-void ProgramExpansion::run_branch(const Step& step, Branch& branch, int n) {
+template <class T>
+void ProgramExpansionT<T>::run_branch(const Step& step, Branch& branch, int n) {
   const Instruction& instruction = step.instruction;
-  const double* a = row(instruction.a);
-  const double* b = row(instruction.b);
-  const double* c = row(instruction.c);
-  double* r = row(instruction.result);
-  double* u = row(step.scratch);
+  const T* a = row(instruction.a);
+  const T* b = row(instruction.b);
+  const T* c = row(instruction.c);
+  T* r = row(instruction.result);
+  T* u = row(step.scratch);
   switch (instruction.opcode) {
     case Opcode::abs: {
       const double sign = decide_sign(branch, n);
@@ -115,7 +120,7 @@ void ProgramExpansion::run_branch(const Step& step, Branch& branch, int n) {
       // y = ((c3 s + c2) s + c1) s + c0 with s = x - begin: u = s, v = c3 s + c2, w = v s + c1
       const Table& table = *program_.tables[static_cast<std::size_t>(instruction.b)];
       const Table::Cell& cell = table.cell(table.find_cell(branch.lower));
-      double *v = row(step.scratch + 1), *w = row(step.scratch + 2);
+      T *v = row(step.scratch + 1), *w = row(step.scratch + 2);
       u[n] = n == 0 ? a[0] - branch.lower : a[n];
       v[n] = cell.c3 * u[n] + (n == 0 ? cell.c2 : 0.0);
       w[n] = recurrence::multiply(v, u, n) + (n == 0 ? cell.c1 : 0.0);
@@ -127,9 +132,11 @@ void ProgramExpansion::run_branch(const Step& step, Branch& branch, int n) {
   }
 }
 
-BranchTime ProgramExpansion::end_of_branch(const Branch& branch, double duration, double& border) const {
-  const std::span<const double> series(rows_.data() + static_cast<std::ptrdiff_t>(branch.function) * stride_,
-                                       static_cast<std::size_t>(order_));
+template <class T>
+BranchTime ProgramExpansionT<T>::end_of_branch(const Branch& branch, double duration, double& border) const {
+  std::array<double, kMaxOrder> room;
+  const T* function = rows_.data() + static_cast<std::ptrdiff_t>(branch.function) * stride_;
+  const std::span<const double> series = detail::in_doubles(function, order_, room);
   const BranchTime none{duration, -1, 0.0};
   if (branch.kind == Branch::Kind::nonzero && branch.sign != 0.0) return none;  // zero for an instant decides nothing
   if (branch.kind != Branch::Kind::interval) {
@@ -152,7 +159,8 @@ BranchTime ProgramExpansion::end_of_branch(const Branch& branch, double duration
   return first;
 }
 
-double ProgramExpansion::duration_until_branch(double duration) {
+template <class T>
+double ProgramExpansionT<T>::duration_until_branch(double duration) {
   const double search = duration * row_direction_;  // on the axis s of the rows
   direction_ = duration < 0.0 ? -1.0 : 1.0;
   has_end_ = false;
@@ -167,20 +175,22 @@ double ProgramExpansion::duration_until_branch(double duration) {
   }
   if (first.index < 0) return duration;
   // What is known of the start stays known as long as the time does not move on: several branches may end together.
-  if (std::abs(first.duration) > kSameTime * std::abs(start_)) forget_forced_branches();
+  if (std::abs(first.duration) > detail::kSameTime * std::abs(start_)) forget_forced_branches();
   force(branches_[static_cast<std::size_t>(first.index)], first.sign_after, first_border);
   remember_end(first.duration);
   return first.duration * row_direction_;
 }
 
-void ProgramExpansion::forget_forced_branches() {
+template <class T>
+void ProgramExpansionT<T>::forget_forced_branches() {
   for (Branch& branch : branches_) {
     branch.forced_sign.reset();
     branch.refuted = {};
   }
 }
 
-void ProgramExpansion::force(Branch& branch, double sign, double border) {
+template <class T>
+void ProgramExpansionT<T>::force(Branch& branch, double sign, double border) {
   const auto refuted = [&](double s) -> bool& { return branch.refuted[static_cast<std::size_t>(s + 1.0)]; };
   if (branch.kind == Branch::Kind::sign) {
     refuted(branch.sign) = true;
@@ -190,23 +200,25 @@ void ProgramExpansion::force(Branch& branch, double sign, double border) {
   branch.forced_border = border;
 }
 
-void ProgramExpansion::remember_end(double s) {
+template <class T>
+void ProgramExpansionT<T>::remember_end(double s) {
   has_end_ = true;
   end_time_ = start_ + s * row_direction_;
   for (int i = 0; i < dimension(); ++i) {
-    const double* q = rows_.data() + static_cast<std::ptrdiff_t>(1 + i) * stride_;
-    double value = 0.0, magnitude = 0.0;
+    const T* q = rows_.data() + static_cast<std::ptrdiff_t>(1 + i) * stride_;
+    T value = 0.0, magnitude = 0.0;
     for (int k = order_; k >= 0; --k) {
       value = value * s + q[k];
       magnitude = magnitude * std::abs(s) + std::abs(q[k]);
     }
-    end_state_[static_cast<std::size_t>(i)] = value;
-    end_tolerance_[static_cast<std::size_t>(i)] = kSameState * magnitude;
+    end_state_[static_cast<std::size_t>(i)] = static_cast<double>(value);
+    end_tolerance_[static_cast<std::size_t>(i)] = detail::kSameState * static_cast<double>(magnitude);
   }
 }
 
-bool ProgramExpansion::continues_at(double t, const double* q) const {
-  if (!has_end_ || std::abs(t - end_time_) > kSameTime * std::abs(t)) return false;
+template <class T>
+bool ProgramExpansionT<T>::continues_at(double t, const T* q) const {
+  if (!has_end_ || std::abs(t - end_time_) > detail::kSameTime * std::abs(t)) return false;
   for (std::size_t i = 0; i < end_state_.size(); ++i) {
     if (std::abs(q[i] - end_state_[i]) > end_tolerance_[i]) return false;
   }
