@@ -42,7 +42,7 @@ class SceneReader {
       scene.obstacles.push_back(detail::read_obstacle(table));
     for (const TableReader& table : array_of_tables(root, "state")) scene.states.push_back(read_state(table));
     for (const TableReader& table : array_of_tables(root, "event")) scene.events.push_back(read_event(table));
-    if (root.has("exact")) scene.exact = named_formulas(root.subtable("exact").titled("[exact]"));
+    if (root.has("exact")) read_exact(root.subtable("exact").titled("[exact]"), "", scene);
     detail::check_names(scene);
     if (scene.bodies.empty() && scene.states.empty())
       throw InputError(root.where(), "nothing moves in this scene: a [[body]] or a [[state]] expected");
@@ -96,6 +96,40 @@ class SceneReader {
       }
     }
     return formulas;
+  }
+
+  /// Closed forms by name: formulas, and orientations in the forms in which a body's start gives them.
+  void read_exact(const TableReader& table, const std::string& prefix, Scene& scene) const {
+    for (const auto& [key, node] : detail::entries_in_file_order(table.table())) {
+      const std::string name = prefix + std::string(key->str());
+      if (node->is_table() && name.ends_with(".orientation")) {
+        const TableReader orientation = table.subtable(key->str()).titled("[exact] " + name);
+        scene.exact_orientations.push_back({name, detail::read_orientation(orientation), document_.location(*key)});
+      } else if (node->is_table() && prefix.empty()) {
+        read_exact(table.subtable(key->str()), name + ".", scene);
+      } else {
+        scene.exact.push_back({name, table.formula(key->str()), document_.location(*key)});
+      }
+    }
+    if (!prefix.empty()) gather_quaternion(prefix, scene);
+  }
+
+  /// Four closed forms `ball.qw` … `ball.qz` are one of the orientation.
+  static void gather_quaternion(const std::string& prefix, Scene& scene) {
+    OrientationDefinition orientation;
+    for (const char* part : {"qw", "qx", "qy", "qz"}) {
+      const auto found = std::ranges::find(scene.exact, prefix + part, &NamedExpression::name);
+      if (found == scene.exact.end()) continue;
+      if (orientation.quaternion.empty()) orientation.where = found->where;
+      orientation.quaternion.push_back(std::move(found->value));
+      scene.exact.erase(found);
+    }
+    if (orientation.quaternion.empty()) return;
+    const std::string name = prefix + "orientation";
+    if (orientation.quaternion.size() != 4)
+      throw InputError(orientation.where, "a quaternion has four parts: " + prefix + "qw, qx, qy, qz expected, got " +
+                                              std::to_string(orientation.quaternion.size()));
+    scene.exact_orientations.push_back({name, orientation, orientation.where});
   }
 
   static TimeOptions read_time(const TableReader& table) {

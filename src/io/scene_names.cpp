@@ -20,8 +20,9 @@ using Names = std::map<std::string, NameUse, std::less<>>;
 constexpr std::string_view kOwnNames[] = {"r",   "v",   "w",   "x",   "y",   "z",   "vx",  "vy",  "vz",
                                           "wx",  "wy",  "wz",  "w_body", "q",   "qw",  "qx",  "qy",  "qz",  "R",
                                           "Rxx", "Rxy", "Rxz", "Ryx", "Ryy", "Ryz", "Rzx", "Rzy", "Rzz"};
-/// Parts of a body that `set` may change; the first two are those that `exact` gives.
-constexpr std::string_view kBodyParts[] = {"r", "v", "x", "y", "z", "vx", "vy", "vz", "w"};
+/// Parts of a body that `set` may change, and those that `exact` gives.
+constexpr std::string_view kSetParts[] = {"r", "v", "x", "y", "z", "vx", "vy", "vz", "w"};
+constexpr std::string_view kExactParts[] = {"r", "v", "w", "w_body", "orientation"};
 
 bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; }
 bool is_name_character(char c) { return is_letter(c) || (c >= '0' && c <= '9') || c == '-'; }
@@ -47,15 +48,16 @@ void add_usable_in_laws(Names& names, const std::string& name, std::string_view 
 }
 
 /// Throws unless `name` is an extra state or BODY.PART.
-void check_target(const Scene& scene, const NamedExpression& target, std::span<const std::string_view> parts) {
+void check_target(const Scene& scene, const std::string& target, const SourceLocation& where,
+                  std::span<const std::string_view> parts) {
   std::vector<std::string> known;
   for (const StateDefinition& state : scene.states) known.push_back(state.name);
   for (const BodyDefinition& body : scene.bodies)
     for (const std::string_view part : parts) known.push_back(body.name + "." + std::string(part));
-  if (std::ranges::find(known, target.name) != known.end()) return;
+  if (std::ranges::find(known, target) != known.end()) return;
   const std::vector<std::string_view> views(known.begin(), known.end());
-  throw InputError(target.where, "'" + target.name + "' is neither an extra state nor a part of a body" +
-                                     did_you_mean(target.name, views));
+  throw InputError(where,
+                   "'" + target + "' is neither an extra state nor a part of a body" + did_you_mean(target, views));
 }
 
 }  // namespace
@@ -78,11 +80,13 @@ void check_names(const Scene& scene) {
   Names event_names;
   for (const EventDefinition& event : scene.events) {
     add(event_names, event.name, "event", event.where);
-    for (const NamedExpression& target : event.set) check_target(scene, target, kBodyParts);
+    for (const NamedExpression& target : event.set) check_target(scene, target.name, target.where, kSetParts);
   }
 
-  constexpr std::span kExactParts = std::span(kBodyParts).first(2);
-  for (const NamedExpression& closed_form : scene.exact) check_target(scene, closed_form, kExactParts);
+  for (const NamedExpression& closed_form : scene.exact)
+    check_target(scene, closed_form.name, closed_form.where, kExactParts);
+  for (const ExactOrientation& closed_form : scene.exact_orientations)
+    check_target(scene, closed_form.name, closed_form.where, kExactParts);
 }
 
 }  // namespace trajet::detail

@@ -64,6 +64,13 @@ void OrientationLayout::put(const Quaternion& q_WB, double* part) const {
   if (way == OrientationWay::rotation_vector) std::fill_n(part + 4, 3, 0.0);
 }
 
+void OrientationLayout::align(double* part, const double* other) const {
+  if (way == OrientationWay::matrix) return;
+  double product = 0.0;
+  for (int i = 0; i < 4; ++i) product += part[i] * other[i];
+  if (product < 0.0) std::for_each_n(part, 4, [](double& number) { number = -number; });
+}
+
 void OrientationLayout::settle(double* part) const {
   if (way == OrientationWay::matrix || way == OrientationWay::quaternion) return;
   Quaternion q(part[0], part[1], part[2], part[3]);

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "error_meter.hpp"
+#include "rotations.hpp"
 #include "trajet/sim/run.hpp"
 
 namespace trajet {
@@ -176,16 +177,23 @@ class ComparisonRun {
     return {std::begin(kDefaultRtols), std::end(kDefaultRtols)};
   }
 
+  bool has_closed_forms() const { return !base_.exact.empty() || !base_.exact_rotations.empty(); }
+
   bool uses_closed_forms() const {
-    if (plan_.reference == "exact" && base_.exact.empty())
+    if (plan_.reference == "exact" && !has_closed_forms())
       throw InputError(plan_.reference_where, "the scene has no closed forms, [exact], to compare with");
-    return plan_.reference == "exact" || (plan_.reference.empty() && !base_.exact.empty());
+    return plan_.reference == "exact" || (plan_.reference.empty() && has_closed_forms());
   }
 
   void find_reference() {
     if (uses_closed_forms()) {
       result_.reference_name = "exact";
       for (const World::ClosedForm& closed_form : base_.exact) result_.components.push_back(closed_form.name);
+      for (const World::ClosedRotation& closed_form : base_.exact_rotations) {
+        const std::string& body = base_.bodies[static_cast<std::size_t>(closed_form.body)].name;
+        if (closed_form.orientation) result_.components.push_back(body + ".orientation");
+        if (closed_form.angular_velocity) result_.components.push_back(body + ".w");
+      }
       result_.reference = std::make_shared<ClosedFormReference>(base_);
       warn_of_another_start();
       return;
@@ -268,17 +276,28 @@ class ComparisonRun {
 
   /// A closed form that does not begin where the motion begins belongs to another motion.
   void warn_of_another_start() {
-    constexpr double kTolerance = 1e-9;  // well above the rounding of a formula, well below what is meant
-    Eigen::VectorXd exact;
-    for (const World::ClosedForm& closed_form : base_.exact) {
-      result_.reference->state(closed_form.group, base_.start, exact);
-      const Eigen::VectorXd& start = base_.groups[static_cast<std::size_t>(closed_form.group)].start;
-      const auto size = static_cast<Eigen::Index>(closed_form.value.outputs.size());
-      const auto own = start.segment(closed_form.offset, size);
-      if ((exact.segment(closed_form.offset, size) - own).cwiseAbs().maxCoeff() >
-          kTolerance * (1.0 + own.cwiseAbs().maxCoeff()))
-        result_.warnings.push_back("the closed form of '" + closed_form.name + "' does not begin where the scene does");
+    for (const World::ClosedForm& closed_form : base_.exact)
+      warn_of_another_start(closed_form.name, closed_form.group, closed_form.offset,
+                            static_cast<int>(closed_form.value.outputs.size()));
+    for (const World::ClosedRotation& closed_form : base_.exact_rotations) {
+      const World::Body& body = base_.bodies[static_cast<std::size_t>(closed_form.body)];
+      const int size = body.rotation->layout.size();
+      if (closed_form.orientation)
+        warn_of_another_start(body.name + ".orientation", body.group, body.rotation->offset, size);
+      if (closed_form.angular_velocity)
+        warn_of_another_start(body.name + ".w", body.group, body.rotation->offset + size, 3);
     }
+  }
+
+  void warn_of_another_start(const std::string& name, int group, int offset, int size) {
+    constexpr double kTolerance = 1e-9;  // well above the rounding of a formula, well below what is meant
+    const Eigen::VectorXd& start = base_.groups[static_cast<std::size_t>(group)].start;
+    Eigen::VectorXd exact;
+    result_.reference->state(group, base_.start, exact);
+    align_orientations(base_, group, exact, start);
+    const auto own = start.segment(offset, size);
+    if ((exact.segment(offset, size) - own).cwiseAbs().maxCoeff() > kTolerance * (1.0 + own.cwiseAbs().maxCoeff()))
+      result_.warnings.push_back("the closed form of '" + name + "' does not begin where the scene does");
   }
 
   void add_row(const Way& way, std::size_t index, std::size_t count) {

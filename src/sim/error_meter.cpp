@@ -77,6 +77,7 @@ Deviation ErrorMeter::deviation(const MotionPiece& piece, double t) {
 void ErrorMeter::read_reference(int group, double t) {
   reference_.state(group, t, reference_state_);
   settle_orientations(*world_, group, reference_state_);
+  align_orientations(*world_, group, reference_state_, state_);
 }
 
 Deviation ErrorMeter::deviation(const Group& group) const {

@@ -4,10 +4,59 @@
 #include <limits>
 
 namespace trajet {
+namespace {
+
+ReferenceError not_finite(const std::string& name, double t, const SourceLocation& where) {
+  return ReferenceError(where, "the closed form of '" + name + "' is not finite at t = " + std::to_string(t) + " s");
+}
+
+Quaternion evaluate(const World::ClosedRotation::Orientation& closed_form, Evaluator<double>& evaluator, double t) {
+  double values[9];
+  Vector3 axis;
+  evaluator(t, nullptr, values);
+  switch (closed_form.form) {
+    case World::ClosedRotation::Form::axis_angle:
+      axis = {values[0], values[1], values[2]};
+      return from_axis_angle<double>(axis / axis.stableNorm(), values[3]);  // a vector of length 0 is no axis
+    case World::ClosedRotation::Form::quaternion:
+      return Quaternion(values[0], values[1], values[2], values[3]).normalized();
+    case World::ClosedRotation::Form::matrix:
+      break;
+  }
+  return from_rotation_matrix(Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(values));
+}
+
+}  // namespace
 
 ClosedFormReference::ClosedFormReference(const World& world) : closed_forms_(world.exact) {
   for (const World::Group& group : world.groups) sizes_.push_back(group.start.size());
   for (const World::ClosedForm& closed_form : closed_forms_) evaluators_.emplace_back(closed_form.value);
+  for (const World::ClosedRotation& closed_form : world.exact_rotations) {
+    const World::Body& body = world.bodies[static_cast<std::size_t>(closed_form.body)];
+    rotations_.push_back({body.group, *body.rotation, body.name, closed_form});
+  }
+  for (Rotation& rotation : rotations_) {
+    const World::ClosedRotation& closed_form = rotation.closed_form;
+    if (closed_form.orientation) rotation.orientation.emplace(closed_form.orientation->value);
+    if (closed_form.angular_velocity) rotation.angular_velocity.emplace(closed_form.angular_velocity->value);
+  }
+}
+
+void ClosedFormReference::Rotation::write(double t, Eigen::VectorXd& q) const {
+  const OrientationLayout& layout = place.layout;
+  Quaternion q_WB = Quaternion::Identity();
+  if (orientation) {
+    q_WB = evaluate(*closed_form.orientation, *orientation, t);
+    if (!q_WB.coeffs().allFinite()) throw not_finite(body + ".orientation", t, closed_form.orientation->where);
+    layout.put(q_WB, q.data() + place.offset);
+  }
+  if (!angular_velocity) return;
+  Vector3 w;
+  (*angular_velocity)(t, nullptr, w.data());
+  const World::ClosedRotation::AngularVelocity& given = *closed_form.angular_velocity;
+  if (!w.allFinite()) throw not_finite(body + (given.frame == Frame::world ? ".w" : ".w_body"), t, given.where);
+  if (given.frame != layout.frame) w = rotate<double>(given.frame == Frame::body ? q_WB : q_WB.conjugate(), w);
+  q.segment<3>(place.offset + layout.size()) = w;
 }
 
 void ClosedFormReference::state(int group, double t, Eigen::VectorXd& q) const {
@@ -17,10 +66,10 @@ void ClosedFormReference::state(int group, double t, Eigen::VectorXd& q) const {
     if (closed_form.group != group) continue;
     const auto size = static_cast<Eigen::Index>(closed_form.value.outputs.size());
     evaluators_[i](t, nullptr, q.data() + closed_form.offset);
-    if (!q.segment(closed_form.offset, size).allFinite())
-      throw ReferenceError(closed_form.where, "the closed form of '" + closed_form.name +
-                                                  "' is not finite at t = " + std::to_string(t) + " s");
+    if (!q.segment(closed_form.offset, size).allFinite()) throw not_finite(closed_form.name, t, closed_form.where);
   }
+  for (const Rotation& rotation : rotations_)
+    if (rotation.group == group) rotation.write(t, q);
 }
 
 void RecordedReference::begin(const World& world) {

@@ -76,6 +76,12 @@ void settle_orientations(const World& world, int group, Eigen::VectorXd& q) {
       rotation->layout.settle(q.data() + rotation->offset);
 }
 
+void align_orientations(const World& world, int group, Eigen::VectorXd& q, const Eigen::VectorXd& other) {
+  for (const int body : world.groups[static_cast<std::size_t>(group)].bodies)
+    if (const auto& rotation = world.bodies[static_cast<std::size_t>(body)].rotation)
+      rotation->layout.align(q.data() + rotation->offset, other.data() + rotation->offset);
+}
+
 double Rotations::unsettled(const Eigen::VectorXd& q) const {
   double largest = 0.0;
   for (const Turning& turning : turning_)

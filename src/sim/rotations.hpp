@@ -37,5 +37,7 @@ class Rotations {
 
 /// The orientations in a state of a group as reports have them, of a motion whose closed forms are not known.
 void settle_orientations(const World& world, int group, Eigen::VectorXd& q);
+/// Of each pair q and -q, which are one rotation, makes `q` hold the one nearer to that of another state.
+void align_orientations(const World& world, int group, Eigen::VectorXd& q, const Eigen::VectorXd& other);
 
 }  // namespace trajet

@@ -1,5 +1,6 @@
 #include "trajet/sim/world.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <set>
@@ -42,6 +43,8 @@ class WorldBuilder {
     for (std::size_t g = 0; g < world_.groups.size(); ++g) compile_group(static_cast<int>(g));
     check_that_method_suits(scene_, world_);
     for (const NamedExpression& closed_form : scene_.exact) compile_exact(closed_form);
+    for (const ExactOrientation& closed_form : scene_.exact_orientations) compile_exact_orientation(closed_form);
+    for (const World::ClosedRotation& closed_form : world_.exact_rotations) check_exact_rotation(closed_form);
     return std::move(world_);
   }
 
@@ -254,15 +257,60 @@ class WorldBuilder {
   }
 
   void compile_exact(const NamedExpression& closed_form) {
-    const AssignmentTarget target = find_target(closed_form);
-    if (target.turning != nullptr)
-      throw InputError(closed_form.where, "[exact] knows no closed form of '" + closed_form.name + "'");
+    const bool is_in_body = closed_form.name.ends_with(".w_body");
     Symbols symbols(&parameters_.symbols);
     symbols.set_input("t", 0);
     ProgramBuilder value(1);
+    if (is_in_body || closed_form.name.ends_with(".w")) {
+      value.add_output(value.compile_vector(closed_form.value, symbols));
+      auto& angular_velocity = exact_rotation(closed_form.name, closed_form.where).angular_velocity;
+      if (angular_velocity) throw InputError(closed_form.where, "[exact] has both `w` and `w_body` of one body");
+      angular_velocity.emplace(is_in_body ? Frame::body : Frame::world, value.build(), closed_form.where);
+      return;
+    }
+    const AssignmentTarget target = find_target(closed_form);
     value.add_output(target.size == 3 ? value.compile_vector(closed_form.value, symbols)
                                       : value.compile_scalar(closed_form.value, symbols));
     world_.exact.push_back({closed_form.name, target.group, target.offset, value.build(), closed_form.where});
+  }
+
+  /// The closed form of the rotation of the body in `name`, BODY.PART.
+  World::ClosedRotation& exact_rotation(const std::string& name, const SourceLocation& where) {
+    const std::string_view owner = std::string_view(name).substr(0, name.find('.'));
+    const auto body = std::ranges::find(world_.bodies, owner, &World::Body::name);
+    if (body == world_.bodies.end()) throw InputError(where, "there is no body of '" + name + "'");
+    if (!body->rotation)
+      throw InputError(where, "body '" + body->name + "' does not turn: give it an `angular_velocity`, which may be 0");
+    const int index = static_cast<int>(body - world_.bodies.begin());
+    const auto known = std::ranges::find(world_.exact_rotations, index, &World::ClosedRotation::body);
+    if (known != world_.exact_rotations.end()) return *known;
+    return world_.exact_rotations.emplace_back(World::ClosedRotation{.body = index});
+  }
+
+  void compile_exact_orientation(const ExactOrientation& closed_form) {
+    using Form = World::ClosedRotation::Form;
+    Symbols symbols(&parameters_.symbols);
+    symbols.set_input("t", 0);
+    ProgramBuilder value(1);
+    const OrientationDefinition& given = closed_form.value;
+    if (given.axis) value.add_output(value.compile_vector(*given.axis, symbols));
+    if (given.angle_rad) value.add_output(value.compile_scalar(*given.angle_rad, symbols));
+    for (const Expression& part : given.quaternion) value.add_output(value.compile_scalar(part, symbols));
+    for (const Expression& row : given.matrix) value.add_output(value.compile_vector(row, symbols));
+    auto& orientation = exact_rotation(closed_form.name, closed_form.where).orientation;
+    if (orientation) throw InputError(closed_form.where, "[exact] has '" + closed_form.name + "' twice");
+    const Form form = given.axis ? Form::axis_angle : given.matrix.empty() ? Form::quaternion : Form::matrix;
+    orientation.emplace(form, value.build(), closed_form.where);
+  }
+
+  /// An angular velocity in the other frame than the state's needs the orientation.
+  void check_exact_rotation(const World::ClosedRotation& closed_form) const {
+    const World::Body& body = world_.bodies[static_cast<std::size_t>(closed_form.body)];
+    const auto& w = closed_form.angular_velocity;
+    if (!w || closed_form.orientation || w->frame == body.rotation->layout.frame) return;
+    throw InputError(w->where, "the state of body '" + body.name + "' holds its angular velocity in the frame of the " +
+                                   (w->frame == Frame::world ? "body: give `w_body`" : "world: give `w`") +
+                                   ", or the closed form of its orientation too");
   }
 
   /// Components of a group's state that an assignment replaces, or a closed form gives.

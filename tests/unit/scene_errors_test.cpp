@@ -108,6 +108,11 @@ const BadScene kBadScenes[] = {
     {"[[body]]\nname = \"b\"\n[exact]\nc.r = 1", "6:3", "neither an extra state nor a part of a body"},
     {"[[body]]\nname = \"b\"\n[exact]\nb.x = 1", "6:3", "neither an extra state nor a part of a body"},
     {"[[body]]\nname = \"b\"\n[exact]\nb.q = 1", "6:3", "did you mean 'b.r'?"},
+    {"[[body]]\nname = \"b\"\n[exact]\nb.orientatio = 1", "6:3", "did you mean 'b.orientation'?"},
+    {"[[body]]\nname = \"b\"\n[exact]\nb.qw = 1\nb.qy = 0", "6:3", "four parts: b.qw, qx, qy, qz expected, got 2"},
+    {"[[body]]\nname = \"b\"\n[exact]\nb.orientation = {axis = [0, 0, 1]}", "6:17", "lacks the key 'angle'"},
+    {"[[body]]\nname = \"b\"\n[exact]\nc.orientation = {quaternion = [1, 0, 0, 0]}", "6:3",
+     "neither an extra state nor a part of a body"},
     {"[[body]]\nname = \"b\"\n[[event]]\nname = \"e\"\nwhen = 1\nset = {mas = 1}", "8:8", "neither an extra state"},
     {"[[state]]\nname = \"m\"\nvalue = 1", "3:1", "[[state]] lacks the key 'rate'"},
     // nothing to do

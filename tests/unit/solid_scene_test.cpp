@@ -175,6 +175,96 @@ TEST(SolidScene, OrientationsAreComparedAsReported) {
   }
 }
 
+ComparePlan euler_with(long steps) {
+  ComparePlan plan;
+  plan.methods = {"euler"};
+  plan.step_counts = {steps};
+  return plan;
+}
+
+// w = (0, 0, 2): each step of Euler's method multiplies q by (1, w h/2), which is longer and turns by 2 atan(h w/2).
+TEST(SolidScene, OrientationsAreComparedWithClosedForms) {
+  const char* const forms[] = {
+      "b.orientation = {axis = [0, 0, 3], angle = \"2*t\"}\n",
+      "b.orientation = {quaternion = [\"-cos(t)\", 0, 0, \"-sin(t)\"]}\n",  // the other one of the two
+      "b.orientation = {matrix = [[\"cos(2*t)\", \"-sin(2*t)\", 0], [\"sin(2*t)\", \"cos(2*t)\", 0], [0, 0, 1]]}\n",
+      "b.qw = \"cos(t)\"\nb.qx = 0\nb.qy = 0\nb.qz = \"sin(t)\"\n"};
+  const double h = 0.1, lag = 10 * std::atan(h) - 1.0;  // of half the angle, after 10 steps
+  const double length = std::pow(1 + h * h, 5.0), stretch = std::pow(1 + 4 * h * h, 5.0);
+  const auto row = [&](const std::string& way, const std::string& exact) {
+    const std::string text = "[method]\norientation = \"" + way + "\"\n[exact]\n" + exact;
+    return compare(parse_scene(scene("angular_velocity = [0, 0, 2]", text), "s"), euler_with(10)).rows.at(0);
+  };
+  for (const char* form : forms) {
+    const auto largest = [](double a, double b) { return std::max(std::abs(a), std::abs(b)); };
+    EXPECT_NEAR(*row("quaternion-normalized", form).at_end.state,
+                largest(std::cos(1 + lag) - std::cos(1.0), std::sin(1 + lag) - std::sin(1.0)), 1e-13)
+        << form;
+    EXPECT_NEAR(*row("quaternion", form).at_end.state,
+                largest(length * std::cos(1 + lag) - std::cos(1.0), length * std::sin(1 + lag) - std::sin(1.0)), 1e-13)
+        << form;
+    // R is multiplied by 1 + h w~, which turns by atan(h w)
+    const double angle = 10 * std::atan(2 * h);
+    EXPECT_NEAR(*row("matrix", form).at_end.state,
+                largest(stretch * std::cos(angle) - std::cos(2.0), stretch * std::sin(angle) - std::sin(2.0)), 1e-13)
+        << form;
+    EXPECT_LE(*row("rotation-vector", form).at_samples.state, 1e-14) << form;
+  }
+}
+
+TEST(SolidScene, AngularVelocitiesAreComparedInEitherFrame) {
+  // a symmetric top: w_B turns about its axis at (I_3 - I_1)/I_1 w_3 = 3, and about L in the world
+  const std::string top = "inertia = [1, 1, 2]\nangular_velocity_body = [1, 0, 3]";
+  const auto error = [&](const std::string& exact) {
+    ComparePlan plan;
+    plan.methods = {"taylor"};
+    plan.rtols = {1e-12};
+    return *compare(parse_scene(scene(top, "[exact]\n" + exact), "s"), plan).rows.at(0).at_samples.state;
+  };
+  const std::string w_B = "b.w_body = [\"cos(3*t)\", \"sin(3*t)\", 3]\n";
+  EXPECT_LE(error(w_B), 1e-11);
+  EXPECT_GT(error("b.w_body = [\"cos(3*t)\", \"-sin(3*t)\", 3]\n"), 0.1);
+  EXPECT_NE(error_of(scene(top, "[exact]\nb.w = [0, 0, 3]\n")).find("s:8:3"), std::string::npos);
+  EXPECT_NE(error_of(scene(top, "[exact]\nb.w = [0, 0, 3]\n")).find("give `w_body`"), std::string::npos);
+  EXPECT_NE(error_of(scene("", "[exact]\nb.w = [0, 0, 3]\n")).find("does not turn"), std::string::npos);
+  // the axis that moves in the world, and its orientation, of which the state holds w_B
+  const std::string driven =
+      "angular_velocity_body = [1, 0, 0]\nangular_acceleration_body = [0, 0, 0]\norientation = {axis = [0, 0, 1], "
+      "angle = \"pi/2\"}";
+  EXPECT_NE(error_of(scene(driven, "[exact]\nb.w = [0, 1, 0]\n")).find("give `w_body`"), std::string::npos);
+  ComparePlan plan;
+  plan.methods = {"taylor"};
+  plan.rtols = {1e-12};
+  const std::string exact =
+      "[exact]\nb.w = [0, 1, 0]\nb.qw = \"cos(t/2)/sqrt(2)\"\nb.qx = \"sin(t/2)/sqrt(2)\"\nb.qy = "
+      "\"sin(t/2)/sqrt(2)\"\n"
+      "b.qz = \"cos(t/2)/sqrt(2)\"\n";
+  const Comparison comparison = compare(parse_scene(scene(driven, exact), "s"), plan);
+  EXPECT_LE(*comparison.rows.at(0).at_samples.state, 1e-12);
+  EXPECT_EQ(comparison.components, (std::vector<std::string>{"b.orientation", "b.w"}));
+  EXPECT_TRUE(comparison.warnings.empty());
+}
+
+TEST(SolidScene, ClosedFormsOfOrientationsSayWhatIsWrongAndWhere) {
+  const auto message = [&](const std::string& exact) -> std::string {
+    try {
+      const Comparison c =
+          compare(parse_scene(scene("angular_velocity = [0, 0, 2]", "[exact]\n" + exact), "s"), euler_with(4));
+      return c.warnings.empty() ? "" : c.warnings[0];
+    } catch (const InputError& error) {
+      return error.what();
+    }
+  };
+  EXPECT_EQ(message("b.orientation = {axis = [0, 0, 1], angle = \"2*t\"}\n"), "");
+  EXPECT_NE(message("b.orientation = {axis = [0, 0, 1], angle = \"2*t + 1\"}\n").find("'b.orientation' does not begin"),
+            std::string::npos);
+  EXPECT_TRUE(message("b.orientation = {axis = [0, 0, \"t\"], angle = 0}\n")
+                  .starts_with("s:7:3: error: the closed form of "
+                               "'b.orientation' is not finite"));
+  EXPECT_TRUE(
+      message("b.orientation = {axis = [0, 0, 1], angle = \"2*s\"}\n").starts_with("s:7:47: error: unknown name"));
+}
+
 TEST(SolidScene, ImpactsOfOtherSolidsAreNotMissedInSilence) {
   const std::string ground = "[[obstacle]]\nname = \"ground\"\nshape = \"plane\"\npoint = [0,0,0]\nnormal = [0,0,1]\n";
   const std::string box = "shape = \"box\"\nsize = [1, 2, 2]\nangular_velocity = [1, 2, 3]\nvelocity = [0, 0, -1]\n";

@@ -93,6 +93,9 @@ struct OrientationLayout {
 
   /// Writes a rotation.  // part: (size)
   void put(const Quaternion& q_WB, double* part) const;
+  /// Of q and -q, which are one rotation, makes the part hold that which is nearer to another's. A matrix has no such
+  /// choice.
+  void align(double* part, const double* other) const;
   /// What the way does at the end of a step: normalises the quaternion, or starts the next rotation vector at 0.
   void settle(double* part) const;
   /// How far the numbers are from those that `settle` leaves: 0 to a few roundings; 1 is as far as they may get.

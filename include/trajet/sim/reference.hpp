@@ -41,9 +41,21 @@ class ClosedFormReference : public Reference {
   void state(int group, double t, Eigen::VectorXd& q) const override;
 
  private:
+  /// Of one body. The evaluators' slots are scratch.
+  struct Rotation {
+    int group;
+    World::Rotation place;
+    std::string body;
+    World::ClosedRotation closed_form;
+    mutable std::optional<Evaluator<double>> orientation{}, angular_velocity{};
+
+    void write(double t, Eigen::VectorXd& q) const;
+  };
+
   std::vector<World::ClosedForm> closed_forms_;
   std::vector<Eigen::Index> sizes_;                    // of the groups' states
   mutable std::vector<Evaluator<double>> evaluators_;  // one for each closed form; their slots are scratch
+  std::vector<Rotation> rotations_;
 };
 
 /// A run, kept as it goes on: it is given to `run` as its observer.

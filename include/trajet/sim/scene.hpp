@@ -107,6 +107,13 @@ struct BodyDefinition {
   SourceLocation where{};
 };
 
+/// The closed form of a body's orientation: formulas over t and the parameters.
+struct ExactOrientation {
+  std::string name;  ///< `ball.orientation`
+  OrientationDefinition value;
+  SourceLocation where{};
+};
+
 struct PlaneDefinition {
   Expression point;   ///< m
   Expression normal;  ///< any length; the body lives on the side it points to
@@ -173,8 +180,9 @@ struct Scene {
   std::vector<ObstacleDefinition> obstacles;
   std::vector<StateDefinition> states;
   std::vector<EventDefinition> events;
-  /// Closed forms over t and the parameters, by name: `ball.r`, `ball.v`, or an extra state.
+  /// Closed forms over t and the parameters, by name: `ball.r`, `ball.v`, `ball.w`, `ball.w_body`, or an extra state.
   std::vector<NamedExpression> exact;
+  std::vector<ExactOrientation> exact_orientations;
 };
 
 }  // namespace trajet

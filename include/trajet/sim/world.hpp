@@ -88,6 +88,25 @@ struct World {
     SourceLocation where{};
   };
 
+  /// The exact rotation of a turning body, as the scene's `[exact]` gives it; what it does not give is not known.
+  struct ClosedRotation {
+    enum class Form { axis_angle, quaternion, matrix };
+    struct Orientation {
+      Form form;
+      Program value;  ///< of t: an axis and an angle in rad; w, x, y, z; or nine components, row by row
+      SourceLocation where{};
+    };
+    struct AngularVelocity {
+      Frame frame;
+      Program value;  ///< of t; three outputs, rad/s
+      SourceLocation where{};
+    };
+
+    int body = 0;  ///< in World::bodies
+    std::optional<Orientation> orientation{};
+    std::optional<AngularVelocity> angular_velocity{};
+  };
+
   std::string scene;  ///< file name
   std::string title;
   double start = 0.0;   ///< s
@@ -104,6 +123,7 @@ struct World {
   std::vector<Event> events;
   std::vector<Group> groups;
   std::vector<ClosedForm> exact;
+  std::vector<ClosedRotation> exact_rotations;
 };
 
 /// Gives a scene its numbers. Throws InputError that points at the place, FileError for a table that cannot be read.
