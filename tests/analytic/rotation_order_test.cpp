@@ -119,7 +119,7 @@ TEST(RotationOrder, OfMethodsOfGivenStepsOverARun) {
               << method.name << " of order " << order << ", " << way << ", " << problem.name;
         }
   }
-  EXPECT_EQ(count, 9);
+  EXPECT_EQ(count, 8);
 }
 
 // Error-controlled methods choose their steps; the first one is given here, and is the whole run.
