@@ -17,9 +17,8 @@ export interface Visibility {
   axes: boolean;
 }
 
-/** px: the length of the arrow of the largest velocity or acceleration, at most this part of the picture's height. */
-const kArrowPixels = 110;
-const kArrowPart = 0.2;
+/** px: the length of the arrow of the largest velocity or acceleration, in a picture whose smaller side is so long. */
+export const arrowPixels = (size: number): number => Math.min(110, 0.2 * size);
 /** px: the length of a body's axes, and the size of a body too small to see. */
 const kAxisPixels = 45;
 const kDotPixels = 9;
@@ -171,10 +170,10 @@ export class Actor {
   }
 
   /**
-   * Puts everything where it is at time t. `pixel`: the size of a pixel of the screen at a place of the drawing; `height`:
-   * px, of the picture.
+   * Puts everything where it is at time t. `pixel`: the size of a pixel of the screen at a place of the drawing;
+   * `pictureSize`: px, of the picture's smaller side.
    */
-  update(t: number, shown: Visibility, pixel: (at: THREE.Vector3) => number, height: number): void {
+  update(t: number, shown: Visibility, pixel: (at: THREE.Vector3) => number, pictureSize: number): void {
     const { motion } = this;
     const local = this.frame.toView(motion.position(t));
     this.place.copy(local).add(this.offset);
@@ -190,7 +189,7 @@ export class Actor {
     this.dot.position.copy(local);
     this.dot.visible = this.reach < 0.5 * kDotPixels * size;
 
-    const longest = Math.min(kArrowPixels, kArrowPart * height) * size;
+    const longest = arrowPixels(pictureSize) * size;
     point(this.velocity, local, motion.velocity(t), this.mostSpeed, shown.velocity, longest);
     point(this.acceleration, local, motion.acceleration(t), this.mostAcceleration, shown.acceleration, longest);
     this.axes.visible = shown.axes && motion.turns;
@@ -199,6 +198,24 @@ export class Actor {
     for (const axis of this.axes.children) stretch(axis, Math.max(1.4 * this.reach, kAxisPixels * size), 2 * kAxisPixels * size);
 
     this.showWay(t, local, shown.trails);
+  }
+
+  /** Where arrows come to on the way, if the longest are so long, in the drawing. */
+  arrowTips(longest: number): THREE.Vector3[] {
+    const { motion } = this;
+    const { begin, end } = motion.track;
+    const kTimes = 24;
+    const tips: THREE.Vector3[] = [];
+    for (let i = 0; i <= kTimes; ++i) {
+      const t = begin + ((end - begin) * i) / kTimes;
+      const place = this.frame.toView(motion.position(t)).add(this.offset);
+      const add = (direction: Vector, most: number): void => {
+        if (most > 0) tips.push(place.clone().addScaledVector(vector(direction), longest / most));
+      };
+      add(motion.velocity(t), this.mostSpeed);
+      add(motion.acceleration(t), this.mostAcceleration);
+    }
+    return tips;
   }
 
   private showWay(t: number, local: THREE.Vector3, isShown: boolean): void {

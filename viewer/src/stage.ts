@@ -1,6 +1,6 @@
 import * as THREE from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
-import { Actor, dots, setOpacity, type Visibility } from "./actor";
+import { Actor, arrowPixels, dots, setOpacity, type Visibility } from "./actor";
 import type { Impact } from "./data";
 import { element } from "./dom";
 import * as format from "./format";
@@ -18,6 +18,8 @@ const kGhostOpacity = 0.45;
 const kBodySpacing = 2.4;
 const kPointReach = 0.002 * kViewSize;
 const kFieldOfViewDegrees = 35;
+/** How much farther away the whole scene is looked at than it has to be. */
+const kMargin = 1.12;
 
 /** The picture in space. */
 export class Stage {
@@ -184,24 +186,38 @@ export class Stage {
     const side = this.camera.up.clone().cross(away).normalize();
     const up = away.clone().cross(side);
     const { horizontal, vertical } = this.halfAngles;
-    // A corner at (x, y, z) of the view is inside where |x| <= (d - z) tan of the half angle.
-    let distance = 0;
-    for (let corner = 0; corner < 8; ++corner) {
-      const p = new THREE.Vector3(
-        corner & 1 ? half.x : -half.x,
-        corner & 2 ? half.y : -half.y,
-        corner & 4 ? half.z : -half.z,
+    const signs = [-1, 1];
+    const corners = signs.flatMap((x) => signs.flatMap((y) => signs.map((z) => new THREE.Vector3(x, y, z).multiply(half).add(middle))));
+    // A point at (x, y, z) of the view is inside where |x| <= (d - z) tan of the half angle.
+    const distance = (points: THREE.Vector3[], target: THREE.Vector3): number =>
+      kMargin *
+      Math.max(
+        ...points.map((point) => {
+          const p = point.clone().sub(target);
+          return p.dot(away) + Math.max(Math.abs(p.dot(side)) / horizontal, Math.abs(p.dot(up)) / vertical);
+        }),
       );
-      const depth = p.dot(away);
-      distance = Math.max(
-        distance,
-        depth + Math.abs(p.dot(side)) / horizontal,
-        depth + Math.abs(p.dot(up)) / vertical,
-      );
+    // Arrows are as long as the picture lets them be, which the corners alone tell well enough.
+    const longest = arrowPixels(this.pictureSize) * this.pixelAt(kMargin * distance(corners, middle));
+    const points = [...corners, ...this.actors.flat().flatMap((actor) => actor.arrowTips(longest))];
+    const target = middle.clone();
+    for (const axis of [side, up]) {
+      const places = points.map((point) => point.dot(axis));
+      target.addScaledVector(axis, 0.5 * (Math.min(...places) + Math.max(...places)) - middle.dot(axis));
     }
-    this.controls.target.copy(middle);
-    this.camera.position.copy(middle).addScaledVector(away, 1.12 * distance);
+    this.controls.target.copy(target);
+    this.camera.position.copy(target).addScaledVector(away, distance(points, target));
     this.controls.update();
+  }
+
+  /** px; the smaller side of the picture. */
+  private get pictureSize(): number {
+    return Math.min(this.container.clientWidth, this.container.clientHeight);
+  }
+
+  /** The size of a pixel of the screen so far from the camera, in the drawing. */
+  private pixelAt(distance: number): number {
+    return (2 * this.halfAngles.vertical * distance) / this.container.clientHeight;
   }
 
   /** Keeps a body of the first run, and those that stand beside it, in the middle, near. */
@@ -294,15 +310,14 @@ export class Stage {
       this.camera.position.add(moved);
       this.followedPlace.copy(place);
     }
-    const worldPixel = (2 * this.halfAngles.vertical) / this.container.clientHeight;
     const forward = this.camera.getWorldDirection(new THREE.Vector3());
     const pixel = (at: THREE.Vector3): number =>
-      worldPixel * Math.max(0.01, at.clone().sub(this.camera.position).dot(forward));
+      this.pixelAt(Math.max(0.01, at.clone().sub(this.camera.position).dot(forward)));
     this.actors.forEach((actors, run) => {
       this.runGroups[run].visible = run === 0 || this.showsGhosts;
       const markers = this.runGroups[run].getObjectByName("impacts");
       if (markers) markers.visible = this.showsImpacts;
-      for (const actor of actors) actor.update(t, this.shown, pixel, this.container.clientHeight);
+      for (const actor of actors) actor.update(t, this.shown, pixel, this.pictureSize);
     });
     // Depth has few digits: the range follows the distance that one looks at.
     const distance = this.camera.position.distanceTo(this.controls.target);
