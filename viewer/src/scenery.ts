@@ -1,10 +1,10 @@
 import * as THREE from "three";
 import type { ObstacleShape, RunData, Vector } from "./data";
 import { number, roundSpacing } from "./format";
-import type { LabelSpec } from "./labels";
+import type { LabelSpec, Side } from "./labels";
 import { vector } from "./shapes";
 import { cssColor } from "./theme";
-import type { ViewFrame } from "./view_frame";
+import { isSeenAlongX, type ViewFrame } from "./view_frame";
 
 /** A plane with a grid on it, and what its squares measure. */
 interface Ground {
@@ -122,13 +122,15 @@ export class Scenery {
       this.group.add(new THREE.Mesh(new THREE.BufferGeometry().setFromPoints(corners), this.ground));
     }
     if (!isScale) return;
-    const label = (i: number, j: number, value: number, unit: string): void => {
+    const label = (i: number, j: number, value: number, unit: string, side: Side): void => {
       const text = `${number(value * this.spacing, 6)}${unit}`;
-      this.labels.push({ at: at(i, j), text, className: "label-scale", priority: 0 });
+      this.labels.push({ at: at(i, j), text, className: "label-scale", priority: 0, side });
     };
-    // every second line, zero among them
-    for (let i = u0 + (u0 & 1); i <= u1; i += 2) label(i, v0, i, i + 2 > u1 ? " m" : "");
-    for (let j = v0 + (v0 & 1); j <= v1; j += 2) label(u1, j, j, j + 2 > v1 ? " m" : "");
+    // every second line, zero among them, in front of the picture and on its right
+    const alongX = isSeenAlongX(this.frame.box);
+    for (let i = u0 + (u0 & 1); i <= u1; i += 2)
+      label(i, alongX ? v1 : v0, i, i + 2 > u1 ? " m" : "", alongX ? "right" : "below");
+    for (let j = v0 + (v0 & 1); j <= v1; j += 2) label(u1, j, j, j + 2 > v1 ? " m" : "", alongX ? "below" : "right");
   }
 }
 

@@ -8,7 +8,7 @@ import { type Area, kBodyPixels, Labels, type LabelSpec } from "./labels";
 import type { Run } from "./motion";
 import { Scenery } from "./scenery";
 import { colorOf, cssColor } from "./theme";
-import { kViewSize, sceneBox, ViewFrame } from "./view_frame";
+import { isSeenAlongX, kViewSize, sceneBox, ViewFrame } from "./view_frame";
 
 /** Impacts beyond so many get no text in the picture; the list has them all. */
 const kMostImpactLabels = 60;
@@ -110,21 +110,15 @@ export class Stage {
     this.fit();
   }
 
-  /** Whether the picture is looked at along x, rather than along y: the way goes from left to right. */
-  private get isSeenAlongX(): boolean {
-    const { x, y } = this.frame.box.getSize(new THREE.Vector3());
-    return y > x;
-  }
-
   /** From a run to the next, in the drawing: the scene's depth, or, where a body is followed, its width. */
   private get spread(): THREE.Vector3 {
     if (!this.isSideBySide) return new THREE.Vector3();
     const alongX = new THREE.Vector3(1, 0, 0);
     const alongY = new THREE.Vector3(0, 1, 0);
-    if (this.followed) return (this.isSeenAlongX ? alongY : alongX).multiplyScalar(kBodySpacing * this.followedReach);
+    if (this.followed) return (isSeenAlongX(this.frame.box) ? alongY : alongX).multiplyScalar(kBodySpacing * this.followedReach);
     const size = this.frame.box.getSize(new THREE.Vector3());
     const step = 1.15 * Math.min(size.x, size.y) + 0.1 * Math.max(size.x, size.y, size.z);
-    return (this.isSeenAlongX ? alongX : alongY).multiplyScalar(step * this.frame.scale);
+    return (isSeenAlongX(this.frame.box) ? alongX : alongY).multiplyScalar(step * this.frame.scale);
   }
 
   /** Of the body that is followed, the largest of all runs. */
@@ -181,7 +175,7 @@ export class Stage {
     this.arrange();
     const middle = this.spreadOfAll.multiplyScalar(0.5);
     const half = this.frame.box.getSize(new THREE.Vector3()).multiplyScalar(0.5 * this.frame.scale).add(middle);
-    const away = this.isSeenAlongX ? new THREE.Vector3(1, -0.35, 0.42) : new THREE.Vector3(-0.35, -1, 0.42);
+    const away = isSeenAlongX(this.frame.box) ? new THREE.Vector3(1, -0.35, 0.42) : new THREE.Vector3(-0.35, -1, 0.42);
     away.normalize();
     const side = this.camera.up.clone().cross(away).normalize();
     const up = away.clone().cross(side);

@@ -28,6 +28,12 @@ export class ViewFrame {
   }
 }
 
+/** Whether a scene is looked at along x, rather than along y, so that its longer side goes from left to right. */
+export function isSeenAlongX(box: THREE.Box3): boolean {
+  const { x, y } = box.getSize(new THREE.Vector3());
+  return y > x;
+}
+
 function obstacleBox(shape: ObstacleShape): THREE.Box3 | null {
   switch (shape.kind) {
     case "plane":

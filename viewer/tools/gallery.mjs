@@ -14,6 +14,10 @@ const kAnimated = [
   { scene: "examples/free_kick.toml", from: 0, to: 1, frames: 48 },
   { scene: "examples/t_handle.toml", from: 0.074, to: 0.1485, frames: 60 }, // turns over once
 ];
+/** Options with which a scene is shown. */
+const kOptions = {
+  "examples/notes/soccer_ball.toml": ["--orientation", "exact", "--orientations", "quaternion,quaternion-normalized"],
+};
 const kSize = { width: 720, height: 405 };
 const kAnimationSize = { width: 560, height: 300 };
 const kFrameMilliseconds = 60;
@@ -36,7 +40,7 @@ const browser = await chromium.launch({
 /** The page of a scene, showing nothing but the picture in space, or, where nothing moves in space, the plots. */
 async function open(scene, viewport) {
   const file = join(work, `${basename(scene, ".toml")}.html`);
-  execFileSync(program, ["view", scene, "--no-open", "--quiet", "--out", file]);
+  execFileSync(program, ["view", scene, "--no-open", "--quiet", "--out", file, ...(kOptions[scene] ?? [])]);
   const page = await browser.newPage({ viewport, colorScheme: "light" });
   await page.goto(pathToFileURL(file).href);
   await page.addStyleTag({
@@ -64,7 +68,7 @@ async function makePicture(scene) {
   const title = await page.title();
   await page.close();
   return `## ${title}\n\n![${title}](gallery/${name})\n\n[\`${scene}\`](../${scene})\n\n` +
-    `\`\`\`sh\nbuild/release/trajet view ${scene}\n\`\`\`\n`; // prettier-ignore
+    `\`\`\`sh\n${["build/release/trajet view", scene, ...(kOptions[scene] ?? [])].join(" ")}\n\`\`\`\n`; // prettier-ignore
 }
 
 async function makeAnimation({ scene, from, to, frames: count }) {
