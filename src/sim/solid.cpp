@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <stdexcept>
+#include <utility>
+#include <vector>
 
 #include "trajet/geom/mass_properties.hpp"
 #include "trajet/rigid/principal_axes.hpp"
@@ -41,11 +44,19 @@ class SolidMaker {
   }
   Solid operator()(const CylinderShape& cylinder) const {
     const double radius = positive(cylinder.radius, "radius"), height = positive(cylinder.height, "height");
-    return {"cylinder", std::hypot(radius, 0.5 * height), false, {}, cylinder_properties(radius, height)};
+    const TriangleMesh surface = turned({{radius, -0.5 * height}, {radius, 0.5 * height}});
+    return {"cylinder", std::hypot(radius, 0.5 * height), false, surface, cylinder_properties(radius, height)};
   }
   Solid operator()(const CapsuleShape& capsule) const {
     const double radius = positive(capsule.radius, "radius"), height = positive(capsule.height, "height");
-    return {"capsule", radius + 0.5 * height, false, {}, capsule_properties(radius, height)};
+    constexpr int kRings = 6;  // of a half sphere, without its pole
+    std::vector<std::pair<double, double>> profile;
+    for (int i = 0; i <= kRings; ++i) {
+      const double angle = 0.5 * std::numbers::pi * i / kRings;
+      const double r = i == kRings ? 0.0 : radius * std::cos(angle), z = 0.5 * height + radius * std::sin(angle);
+      profile.insert(profile.end(), {{r, z}, {r, -z}});
+    }
+    return {"capsule", radius + 0.5 * height, false, turned(profile), capsule_properties(radius, height)};
   }
   Solid operator()(const SoccerBallShape& ball) const {
     const double radius = positive(ball.radius, "radius");
@@ -69,6 +80,22 @@ class SolidMaker {
   }
 
  private:
+  /// The hull of rings about z: distance from the axis and height of each.
+  static TriangleMesh turned(const std::vector<std::pair<double, double>>& rings) {
+    constexpr int kSides = 32;
+    std::vector<Vector3> points;
+    for (const auto& [r, z] : rings)
+      for (int i = 0; i < (r > 0.0 ? kSides : 1); ++i) {
+        const double angle = 2.0 * std::numbers::pi * i / kSides;
+        points.emplace_back(r * std::cos(angle), r * std::sin(angle), z);
+      }
+    try {
+      return convex_hull(points);
+    } catch (const std::domain_error&) {  // too flat for a picture, which is no reason to refuse it
+      return {};
+    }
+  }
+
   static Solid centered(std::string_view name, TriangleMesh surface) {
     const VolumeProperties properties = mesh_properties(surface);
     double radius = 0.0;

@@ -33,20 +33,22 @@ std::vector<Vector3> clip(std::vector<Vector3> polygon, const Eigen::AlignedBox3
   return polygon;
 }
 
+std::vector<Face> faces_of(const Plane& plane, const Eigen::AlignedBox3d& box) {
+  const Vector3 center = box.center() - plane.normal.dot(box.center() - plane.point) * plane.normal;
+  const double size = 2.0 * box.sizes().norm();
+  return {face(make_rectangle(center, plane.normal, plane.normal.unitOrthogonal(), size, size))};
+}
+std::vector<Face> faces_of(const Disk& disk, const Eigen::AlignedBox3d&) { return {face(disk, kCircleSides)}; }
+std::vector<Face> faces_of(const Rectangle& rectangle, const Eigen::AlignedBox3d&) { return {face(rectangle)}; }
+std::vector<Face> faces_of(const Triangle& triangle, const Eigen::AlignedBox3d&) { return {face(triangle)}; }
+std::vector<Face> faces_of(const Sphere&, const Eigen::AlignedBox3d&) { return {}; }
+std::vector<Face> faces_of(const Box& box, const Eigen::AlignedBox3d&) {
+  const auto sides = faces(box);
+  return {sides.begin(), sides.end()};
+}
+
 std::vector<Face> whole_faces(const Shape& shape, const Eigen::AlignedBox3d& box) {
-  if (const auto* plane = std::get_if<Plane>(&shape)) {
-    const Vector3 center = box.center() - plane->normal.dot(box.center() - plane->point) * plane->normal;
-    const double size = 2.0 * box.sizes().norm();
-    return {face(make_rectangle(center, plane->normal, plane->normal.unitOrthogonal(), size, size))};
-  }
-  if (const auto* disk = std::get_if<Disk>(&shape)) return {face(*disk, kCircleSides)};
-  if (const auto* rectangle = std::get_if<Rectangle>(&shape)) return {face(*rectangle)};
-  if (const auto* triangle = std::get_if<Triangle>(&shape)) return {face(*triangle)};
-  if (const auto* cuboid = std::get_if<Box>(&shape)) {
-    const auto sides = faces(*cuboid);
-    return {sides.begin(), sides.end()};
-  }
-  return {};
+  return std::visit([&](const auto& each) { return faces_of(each, box); }, shape);
 }
 
 Eigen::AlignedBox3d box_of(const Shape& shape, const Eigen::AlignedBox3d& motion) {

@@ -5,7 +5,6 @@
 #include <algorithm>
 
 #include "obstacle_faces.hpp"
-#include "space_panel.hpp"
 
 namespace trajet::detail {
 
@@ -19,14 +18,6 @@ constexpr std::size_t kMostTrails = 4;
 
 std::string line_style(Color color) { return fmt::format("lines lw 2.4 lc '{}'", color_text(color)); }
 constexpr const char* kImpactStyle = "points pt 6 ps 1.2 lw 2 lc '#202020'";
-
-/// The axis about which a body turns, in the world; zero where it does not.
-Vector3 angular_velocity(const World::Body& body, const std::vector<double>& state) {
-  const auto& [layout, offset, is_free, inertia] = *body.rotation;
-  const double* part = state.data() + offset;
-  const Vector3 w(part[layout.size()], part[layout.size() + 1], part[layout.size() + 2]);
-  return layout.frame == trajet::Frame::world ? w : Vector3(layout.rotation(part) * w);
-}
 
 bool is_clear(const std::vector<Vector3>& way) {
   Eigen::AlignedBox3d box;
@@ -63,13 +54,15 @@ PathPanel::PathPanel(const RunResult& result, const MotionRecord& record, const 
 }
 
 std::vector<Vector3> PathPanel::path(const World::Body& body) const {
+  const std::vector<std::vector<double>>& states = curve(body).states;
+  if (states.empty()) return {make_poses(record_, body).front().p_WB};
   std::vector<Vector3> points;
-  for (const std::vector<double>& state : curve(body).states)
-    points.push_back(Vector3::Map(state.data() + body.offset));
+  for (const std::vector<double>& state : states) points.push_back(Vector3::Map(state.data() + body.offset));
   return points;
 }
 
 std::vector<Vector3> PathPanel::way_of(const World::Body& body, const World::Point& point) const {
+  if (curve(body).times.empty()) return {};
   constexpr int kParts = 600;
   const double start = curve(body).times.front(), duration = curve(body).times.back() - start;
   std::vector<double> times;
@@ -79,22 +72,31 @@ std::vector<Vector3> PathPanel::way_of(const World::Body& body, const World::Poi
   return way;
 }
 
-bool PathPanel::is_turning_solid(const World::Body& body) const {
-  return body.rotation && !curve(body).states.empty() && !look(body).is_empty();
+Vector3 PathPanel::angular_velocity(const World::Body& body) const {
+  const OrientationLayout& layout = body.rotation->layout;
+  const Eigen::VectorXd& start = world_.groups[static_cast<std::size_t>(body.group)].start;
+  const double* part =
+      (curve(body).states.empty() ? start.data() : curve(body).states.back().data()) + body.rotation->offset;
+  const Vector3 w = Vector3::Map(part + layout.size());
+  return layout.frame == trajet::Frame::world ? w : Vector3(layout.rotation(part) * w);
 }
+
+bool PathPanel::is_turning_solid(const World::Body& body) const { return body.rotation && !look(body).is_empty(); }
 
 bool PathPanel::stays(const World::Body& body) const {
   const std::vector<Vector3> points = path(body);
   return std::ranges::all_of(points, [&](const Vector3& point) { return point == points.front(); });
 }
 
+double PathPanel::aspect() const { return is_in_space_ ? space_panel().aspect() : 1.0; }
+
 std::string PathPanel::script(const Frame& frame, const FigureSize& size) const {
   const std::string legend = fmt::format("set key at screen {:.4f}, {:.4f} right bottom Left reverse horizontal\n",
                                          frame.right, frame.top + 4.0 / size.height);
-  return legend + (is_in_space_ ? space_script(frame, size) : plane_script(frame));
+  return legend + (is_in_space_ ? space_panel().script(frame, size) : plane_script(frame));
 }
 
-std::string PathPanel::space_script(const Frame& frame, const FigureSize& size) const {
+SpacePanel PathPanel::space_panel() const {
   SpacePanel panel;
   std::size_t trails = 0;
   for (std::size_t b = 0; b < world_.bodies.size(); ++b) {
@@ -110,7 +112,7 @@ std::string PathPanel::space_script(const Frame& frame, const FigureSize& size) 
       for (const Pose& pose : poses) panel.add_body(shown, pose, color);
       panel.add_shadowed_path(path(body), line_style(color), b < kMostLegendEntries ? body.name : "");
     }
-    if (!body.rotation || curve(body).states.empty()) continue;
+    if (!body.rotation) continue;
     for (const World::Point& point : body.points) {
       std::vector<Vector3> way = way_of(body, point);
       if (trails >= kMostTrails || !is_clear(way)) continue;
@@ -118,7 +120,7 @@ std::string PathPanel::space_script(const Frame& frame, const FigureSize& size) 
       panel.add_path(std::move(way), fmt::format("lines lw 1.8 lc '{}' dt (10,4)", color_text(kTrailColors[trails++])),
                      (world_.bodies.size() > 1 ? body.name + "." : "") + point.name);
     }
-    const Vector3 w = angular_velocity(body, curve(body).states.back());
+    const Vector3 w = angular_velocity(body);
     if (is_fixed && w.norm() > 0.0) {
       const Vector3 center = path(body).back(), reach = 1.1 * shown.radius() * w.normalized();
       panel.add_path({shown.points.empty() ? Vector3(center - reach) : center, center + reach},
@@ -131,7 +133,7 @@ std::string PathPanel::space_script(const Frame& frame, const FigureSize& size) 
     panel.add_path(std::move(points), kImpactStyle, "impact");
   }
   panel.add_obstacles(world_.obstacles);
-  return panel.script(frame, size);
+  return panel;
 }
 
 std::string PathPanel::plane_script(const Frame& frame) const {

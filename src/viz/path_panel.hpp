@@ -6,6 +6,7 @@
 
 #include "drawing.hpp"
 #include "plot_panel.hpp"
+#include "space_panel.hpp"
 #include "trajet/sim/motion_record.hpp"
 #include "trajet/sim/run_result.hpp"
 #include "trajet/viz/curve.hpp"
@@ -29,16 +30,20 @@ class PathPanel {
   /// Nothing moves, or on a line alone.
   bool is_empty() const { return !is_in_space_ && kept_.size() < 2; }
   bool is_in_space() const { return is_in_space_; }
+  /// How many times as wide as high its picture wants to be.
+  double aspect() const;
   std::string script(const Frame& frame, const FigureSize& size) const;
 
  private:
   const Curve& curve(const World::Body& body) const { return curves_[static_cast<std::size_t>(body.group)]; }
   std::vector<Vector3> path(const World::Body& body) const;
   std::vector<Vector3> way_of(const World::Body& body, const World::Point& point) const;
+  /// In the world, at the end.
+  Vector3 angular_velocity(const World::Body& body) const;
   /// A turning body that has something to show.
   bool is_turning_solid(const World::Body& body) const;
   bool stays(const World::Body& body) const;
-  std::string space_script(const Frame& frame, const FigureSize& size) const;
+  SpacePanel space_panel() const;
   std::string plane_script(const Frame& frame) const;
 
   const RunResult& result_;

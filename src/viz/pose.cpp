@@ -30,8 +30,12 @@ std::vector<double> pose_times(double start, double end) {
 
 std::vector<Pose> poses_at(const MotionRecord& record, const World::Body& body, const std::vector<double>& times) {
   const auto& pieces = record.pieces(body.group);
-  if (pieces.empty()) return {};
   std::vector<Pose> poses;
+  if (pieces.empty()) {
+    const Eigen::VectorXd& start = record.world().groups[static_cast<std::size_t>(body.group)].start;
+    for (const double t : times) poses.push_back(pose(body, t, start));
+    return poses;
+  }
   const double direction = pieces.back().to < pieces.front().from ? -1.0 : 1.0;
   auto piece = pieces.begin();
   for (const double t : times) {
@@ -44,7 +48,7 @@ std::vector<Pose> poses_at(const MotionRecord& record, const World::Body& body, 
 
 std::vector<Pose> make_poses(const MotionRecord& record, const World::Body& body) {
   const auto& pieces = record.pieces(body.group);
-  if (pieces.empty()) return {};
+  if (pieces.empty()) return poses_at(record, body, {record.world().start});
   return poses_at(record, body, pose_times(pieces.front().from, pieces.back().to));
 }
 

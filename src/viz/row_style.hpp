@@ -24,8 +24,8 @@ struct RowStyle {
 /// The styles of all rows, in their order.
 ///
 /// The course's colours: blue for `euler`, black for `rk4`; where ways of carrying orientations are compared, red for
-/// the closed form and blue for the first other one. Else a palette that colour-blind eyes can tell apart [Okabe and
-/// Ito]; the point types do the rest.
+/// the closed form and blue for the first other one. Else a palette that colour-blind eyes can tell apart
+/// [OkabeIto2008]; the point types do the rest.
 std::vector<RowStyle> row_styles(const Comparison& comparison);
 
 }  // namespace trajet::detail

@@ -20,6 +20,8 @@ using detail::Range;
 constexpr std::size_t kMostBodies = 3;
 constexpr std::size_t kMostStates = 4;
 constexpr std::size_t kMostImpactLines = 40;
+/// Paths in space that are so many times as wide as high lie below the other panels.
+constexpr double kWide = 1.7;
 
 /// A vector that is drawn of a body against time.
 struct Quantity {
@@ -67,7 +69,9 @@ class RunFigure {
  public:
   RunFigure(const RunResult& result, const MotionRecord& record)
       : result_(result), world_(record.world()), curves_(make_curves(record)), paths_(result, record, curves_) {
-    body_count_ = std::min(world_.bodies.size(), kMostBodies);
+    // a run that ends at its start has nothing to show against time
+    const bool moves = std::ranges::any_of(curves_, [](const Curve& curve) { return !curve.times.empty(); });
+    if (moves || paths_.is_empty()) body_count_ = std::min(world_.bodies.size(), kMostBodies);
     for (std::size_t b = 0; b < body_count_; ++b) {
       const World::Body& body = world_.bodies[b];
       quantities_.push_back(quantities_of(body, curves_[static_cast<std::size_t>(body.group)]));
@@ -76,8 +80,10 @@ class RunFigure {
     for (std::size_t b = 0; b < body_count_; ++b) {
       const World::Body& body = world_.bodies[b];
       const std::vector<Pose> poses = make_poses(record, body);
-      if (body.rotation && poses.size() > 1 && !detail::look(body).is_empty())
-        strip_.add_row(body.name + ", seen from its centre", detail::look(body), poses, detail::body_color(b));
+      const detail::Look shown = detail::look(body);
+      const bool is_one_line = shown.points.size() == 1;
+      if (body.rotation && poses.size() > 1 && !shown.is_empty() && !is_one_line)
+        strip_.add_row(body.name + ", seen from its centre", shown, poses, detail::body_color(b));
     }
   }
 
@@ -85,10 +91,19 @@ class RunFigure {
     const bool has_paths = !paths_.is_empty();
     std::size_t rows = state_count_;
     for (const auto& quantities : quantities_) rows = std::max(rows, quantities.size());
-    const std::size_t columns = body_count_ + (state_count_ > 0 ? 1 : 0) + (has_paths ? 1 : 0);
-    figure_.size = {static_cast<int>(columns == 1 ? 760 : 560 * columns),
-                    static_cast<int>(110 + 230 * std::max<std::size_t>(rows, 2)) + strip_.height()};
-    columns_ = columns;
+    columns_ = body_count_ + (state_count_ > 0 ? 1 : 0);
+    // wide paths lie below; what is against time stands beside them otherwise, one column for each body
+    const bool paths_lie = has_paths && columns_ > 0 && paths_.aspect() > kWide;
+    if (paths_lie && columns_ == 1 && body_count_ == 1) {
+      quantity_columns_ = 2;
+      rows = (rows + 1) / 2;
+    }
+    if (columns_ > 0) columns_ = std::max(columns_, quantity_columns_);
+    if (has_paths && !paths_lie) ++columns_;
+    const int width = static_cast<int>(columns_ == 1 ? 760 : 560 * columns_);
+    if (paths_lie) path_height_ = std::clamp(static_cast<int>((width - 170) / paths_.aspect()) + 120, 280, 560);
+    figure_.size = {width,
+                    static_cast<int>(110 + 230 * std::max<std::size_t>(rows, 2)) + path_height_ + strip_.height()};
     figure_.script = fmt::format("set multiplot\nset label 1 {} at screen 0.5, screen {:.4f} center font ',21'\n",
                                  quoted(title()), 1.0 - 24.0 / figure_.size.height);
     add_subtitle();
@@ -98,14 +113,11 @@ class RunFigure {
     for (std::size_t b = 0; b < body_count_; ++b) add_body(b, b);
     if (state_count_ > 0) add_states(body_count_);
     if (has_paths) {
-      figure_.script += paths_.script(path_frame(columns - 1), figure_.size);
+      figure_.script += paths_.script(
+          paths_lie ? below(strip_.height() + 12, path_height_ - 44) : path_frame(columns_ - 1), figure_.size);
       end_panel();
     }
-    if (!strip_.is_empty()) {
-      const double pixel_x = 1.0 / figure_.size.width, pixel_y = 1.0 / figure_.size.height;
-      figure_.script += strip_.script(
-          {24.0 * pixel_x, 1.0 - 24.0 * pixel_x, 8.0 * pixel_y, (strip_.height() - 4.0) * pixel_y}, figure_.size);
-    }
+    if (!strip_.is_empty()) figure_.script += strip_.script(below(8, strip_.height() - 12), figure_.size);
     figure_.script += "unset multiplot\n";
     return std::move(figure_);
   }
@@ -115,7 +127,7 @@ class RunFigure {
 
   void add_subtitle() {
     std::string text = "method " + result_.method;
-    if (world_.bodies.size() > body_count_)
+    if (world_.bodies.size() > kMostBodies)
       text += fmt::format("; the first {} of {} bodies against time", body_count_, world_.bodies.size());
     if (world_.states.size() > state_count_)
       text += fmt::format("; the first {} of {} states", state_count_, world_.states.size());
@@ -129,11 +141,17 @@ class RunFigure {
     const double width = 1.0 / static_cast<double>(columns_), pixel_x = 1.0 / figure_.size.width,
                  pixel_y = 1.0 / figure_.size.height;
     const double top = 1.0 - 78.0 * pixel_y;
-    const double height = (top - (16.0 + strip_.height()) * pixel_y) / static_cast<double>(rows);
+    const double height = (top - (16.0 + strip_.height() + path_height_) * pixel_y) / static_cast<double>(rows);
     const double left = width * static_cast<double>(column);
     const double panel_top = top - height * static_cast<double>(row);
     return {left + 104.0 * pixel_x, left + width - 22.0 * pixel_x, panel_top - height + 52.0 * pixel_y,
             panel_top - 22.0 * pixel_y};
+  }
+
+  /// A frame as wide as the figure, in pixels from its lower edge.
+  detail::Frame below(int bottom, int height) const {
+    const double pixel_x = 1.0 / figure_.size.width, pixel_y = 1.0 / figure_.size.height;
+    return {24.0 * pixel_x, 1.0 - 24.0 * pixel_x, bottom * pixel_y, (bottom + height) * pixel_y};
   }
 
   /// That of the paths, which in space brings its own room for the axes' labels.
@@ -216,8 +234,9 @@ class RunFigure {
                                name, i + 2, quantity.color, kDashes[i], "xyz"[i]);
       figure_.script += impact_lines(body.name);
       const std::string owner = world_.bodies.size() > 1 ? body.name + ": " : "";
-      add_time_panel(frame(column, q, quantities.size()), owner + quantity.label, times(curve), values,
-                     q + 1 == quantities.size(), lines);
+      const std::size_t rows_of_panels = (quantities.size() + quantity_columns_ - 1) / quantity_columns_;
+      add_time_panel(frame(column + q % quantity_columns_, q / quantity_columns_, rows_of_panels),
+                     owner + quantity.label, times(curve), values, q + quantity_columns_ >= quantities.size(), lines);
     }
   }
 
@@ -246,7 +265,9 @@ class RunFigure {
   std::vector<std::vector<Quantity>> quantities_;  // of each body that is drawn
   std::size_t body_count_ = 0;
   std::size_t state_count_ = 0;
-  std::size_t columns_ = 1;
+  std::size_t columns_ = 1;           // of panels one above another
+  std::size_t quantity_columns_ = 1;  // of a body
+  int path_height_ = 0;               // pixels; of wide paths, below the others
   bool prints_title_ = true;
   Figure figure_;
 };

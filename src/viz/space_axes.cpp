@@ -18,6 +18,17 @@ std::vector<Vector3> corners(const Eigen::AlignedBox3d& box) {
   return result;
 }
 
+/// Without one scale: a box somewhat lower than wide.
+Vector3 proportions(const Eigen::AlignedBox3d& box, bool one_scale) {
+  return one_scale ? Vector3(1.0, 1.0, 1.0) : Vector3(Vector3(1.0, 1.0, 0.9).cwiseQuotient(box.sizes()));
+}
+
+Eigen::AlignedBox2d picture(const Eigen::AlignedBox3d& box, const Vector3& scale) {
+  Eigen::AlignedBox2d rectangle;
+  for (const Vector3& corner : corners(box)) rectangle.extend(Camera(scale).project(corner));
+  return rectangle;
+}
+
 /// 1, 2 or 5 times a power of ten, at least `least`.
 double round_step(double least) {
   const double power = std::pow(10.0, std::floor(std::log10(least)));
@@ -55,19 +66,17 @@ class Labels {
 
 }  // namespace
 
+double aspect(const Eigen::AlignedBox3d& box, bool one_scale) {
+  const Vector2 extent = picture(box, proportions(box, one_scale)).sizes();
+  return extent.x() / extent.y();
+}
+
 View fit(const Eigen::AlignedBox3d& box, bool one_scale, const Vector2& size) {
-  // without one scale: a box somewhat lower than wide
-  const Vector3 shape(1.0, 1.0, 0.9);
-  const auto picture = [&](const Vector3& scale) {
-    Eigen::AlignedBox2d rectangle;
-    for (const Vector3& corner : corners(box)) rectangle.extend(Camera(scale).project(corner));
-    return rectangle;
-  };
-  Vector3 scale = one_scale ? Vector3(Vector3::Ones()) : Vector3(shape.cwiseQuotient(box.sizes()));
+  Vector3 scale = proportions(box, one_scale);
   const Vector2 room(size.x() - kLeft - kRight, size.y() - kBottom - kTop);
-  const Vector2 extent = picture(scale).sizes();
+  const Vector2 extent = picture(box, scale).sizes();
   scale *= std::min(room.x() / extent.x(), room.y() / extent.y());
-  return {Camera(scale), Vector2(kLeft, kBottom) + 0.5 * room - picture(scale).center()};
+  return {Camera(scale), Vector2(kLeft, kBottom) + 0.5 * room - picture(box, scale).center()};
 }
 
 SpaceAxes space_axes(const Eigen::AlignedBox3d& box, const View& view) {

@@ -16,6 +16,9 @@ struct View {
   Vector2 offset = Vector2::Zero();
 };
 
+/// How many times as wide as high the picture of a box is, without the labels of its axes.
+double aspect(const Eigen::AlignedBox3d& box, bool one_scale);
+
 /// The view that shows a box as large as a panel of `size` (pixels) has room for beside the labels of the axes.
 /// `one_scale`: the same for all axes.
 View fit(const Eigen::AlignedBox3d& box, bool one_scale, const Vector2& size);

@@ -65,6 +65,11 @@ bool SpacePanel::has_one_scale(const Eigen::AlignedBox3d& box) const {
   return has_turning_solid_ || box.sizes().maxCoeff() <= kLongestBox * box.sizes().minCoeff();
 }
 
+double SpacePanel::aspect() const {
+  const Eigen::AlignedBox3d box = axes_box();
+  return detail::aspect(box, has_one_scale(box));
+}
+
 std::string SpacePanel::script(const Frame& frame, const FigureSize& size) const {
   const Vector2 panel((frame.right - frame.left) * size.width, (frame.top - frame.bottom) * size.height);
   const Eigen::AlignedBox3d box = axes_box();

@@ -23,6 +23,8 @@ class SpacePanel {
   void add_body(const Look& look, const Pose& pose, Color color);
   void add_obstacles(const std::vector<World::Obstacle>& obstacles) { obstacles_ = obstacles; }
 
+  /// How many times as wide as high the picture is.
+  double aspect() const;
   /// The lines of a gnuplot script that fill a frame of the figure with the panel; what a legend needs is set before.
   std::string script(const Frame& frame, const FigureSize& size) const;
 

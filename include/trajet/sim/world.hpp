@@ -39,7 +39,9 @@ struct World {
     std::string_view shape;  ///< as scenes name it
     double radius = 0.0;     ///< m, around the centre of mass; 0: a point
     bool is_ball = true;     ///< the radius is that of the surface, else of the farthest point
-    TriangleMesh surface;    ///< body's frame; of boxes, soccer balls, hulls and meshes
+    /// Body's frame; of boxes, soccer balls, hulls and meshes; of cylinders and capsules flat pieces within them, for
+    /// pictures.
+    TriangleMesh surface;
     std::vector<Point> points;
     int group = 0;
     int offset = 0;                      ///< of the position in the group's state; the velocity follows it

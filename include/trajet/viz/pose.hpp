@@ -20,7 +20,7 @@ Pose pose(const World::Body& body, double time, const Eigen::VectorXd& state);
 /// power of ten.
 std::vector<double> pose_times(double start, double end);
 
-/// The poses of a body at times in the order of the run; none where the run ended at its start and left no motion.
+/// The poses of a body at times in the order of the run; those of the start where the run ended there.
 std::vector<Pose> poses_at(const MotionRecord& record, const World::Body& body, const std::vector<double>& times);
 
 /// The poses of a body at the `pose_times` of its motion.
