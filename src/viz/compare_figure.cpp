@@ -46,11 +46,11 @@ class CompareFigure {
         quoted(subtitle()), 1.0 - 49.0 / size_.height);
     constexpr double kLegendLine = 25.0 / kSize.height;
     const double motions_top = 0.895 - kLegendLine * static_cast<double>(motions_.legend_lines());
-    script_ += motions_.script(upper({0.085, 0.50, 0.11, motions_top}), size_);
+    script_ += motions_.script(upper({0.08, 0.485, 0.11, motions_top}), size_);
     script_ += "unset label 1\nunset label 2\nset logscale xy\nset format xy '10^{%T}'\nset termoption enhanced\n";
     const double work_right = 0.985 - legend_width();
-    add_work(upper({0.575, work_right, 0.56, 0.86}), "law evaluations", true);
-    add_work(upper({0.575, work_right, 0.11, 0.42}), "time [ms]", false);
+    add_work(upper({0.6, work_right, 0.56, 0.86}), "law evaluations", true);
+    add_work(upper({0.6, work_right, 0.11, 0.42}), "time [ms]", false);
     add_legend(upper({work_right + 0.01, 0.99, 0.11, 0.86}));
     if (!strip_.is_empty()) {
       script_ += "set termoption noenhanced\n";
