@@ -119,6 +119,23 @@ std::string table(const Comparison& comparison, bool color) {
   return text;
 }
 
+/// What becomes of bodies that turn: a table of its own, so that neither is too wide for a terminal.
+std::string rotation_table(const Comparison& comparison) {
+  if (!comparison.turns) return {};
+  TextTable table{
+      {"method", "step [s]", "rtol", "det R", "|q|", "angle [rad]: end", "at samples", "energy", "momentum"}};
+  for (const ComparisonRow& row : comparison.rows)
+    if (row.succeeded())
+      table.push_back({name(row), cell(row.step), cell(row.rtol), cell(row.rotation_at_end.determinant),
+                       cell(row.rotation_at_end.norm), cell(row.rotation_at_end.angle_rad),
+                       cell(row.rotation_at_samples.angle_rad), cell(row.rotation_at_samples.energy),
+                       cell(row.rotation_at_samples.momentum)});
+  if (table.size() == 1) return {};
+  return "\n" + format_table(table, 1) +
+         "\ndet R, |q|: at the end; angle: from the reference's orientation; energy, momentum: largest relative "
+         "drift\n";
+}
+
 std::string notes(const Comparison& comparison) {
   std::string text = "\nerrors: largest absolute value over all components (m, m/s); position: m\n";
   bool is_cut = false;
@@ -176,7 +193,7 @@ int compare_command(const CompareArguments& arguments) {
     const bool color = wants_color(stdout);
     OutputFile out("-");
     if (!comparison.title.empty()) out.write(styled(comparison.title, Style::bold, color) + "\n");
-    out.write(reference_line(comparison) + table(comparison, color) + notes(comparison));
+    out.write(reference_line(comparison) + table(comparison, color) + notes(comparison) + rotation_table(comparison));
     out.finish();
   }
   for (const std::string& warning : comparison.warnings) fmt::print(stderr, "warning: {}\n", warning);

@@ -50,6 +50,7 @@ class ComparisonRun {
     result_.start_time = base_.start;
     result_.end_time = base_.end;
     result_.parameters = base_.parameters;
+    for (const World::Body& body : base_.bodies) result_.turns = result_.turns || body.rotation;
     const std::vector<Way> ways = lay_out();
     find_reference();
     for (std::size_t i = 0; i < ways.size() && !result_.interrupted; ++i) add_row(ways[i], i, ways.size());
@@ -323,7 +324,7 @@ class ComparisonRun {
   }
 
   void measure(const World& world, ComparisonRow& row, RunObserver* onlooker) const {
-    ErrorMeter meter(*result_.reference, onlooker);
+    ErrorMeter meter(*result_.reference, base_, onlooker);
     const RunResult run = trajet::run(world, &meter);
     row.status = run.status;
     row.failure = run.failure;
@@ -335,6 +336,9 @@ class ComparisonRun {
     row.at_end = meter.at_end();
     row.at_samples = meter.at_samples();
     row.at_nodes = meter.at_nodes();
+    row.rotation_at_end = meter.rotation_at_end();
+    row.rotation_at_samples = meter.rotation_at_samples();
+    row.rotation_history = meter.rotation_history();
     for (int i = 1; i < kMostTimedRuns && row.statistics.wall_seconds < kShortRun; ++i)
       row.statistics.wall_seconds = std::min(row.statistics.wall_seconds, trajet::run(world).statistics.wall_seconds);
   }

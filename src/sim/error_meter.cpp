@@ -24,6 +24,9 @@ void ErrorMeter::begin(const World& world) {
   world_ = &world;
   start_ = world.start;
   sample_ = world.end < world.start ? -world.sample : world.sample;
+  rotation_ = RotationMeter(world);
+  constexpr double kLongestHistory = 500.0;
+  history_stride_ = std::max(1L, std::lround(std::abs(world.end - world.start) / world.sample / kLongestHistory));
   groups_.resize(world.groups.size());
   for (std::size_t g = 0; g < groups_.size(); ++g) {
     Group& group = groups_[g];
@@ -38,6 +41,8 @@ void ErrorMeter::begin(const World& world) {
     group.at_end = deviation(group);
     raise(at_samples_, group.at_end);
     raise(at_nodes_, group.at_end);
+    note_rotation(static_cast<int>(g), 0, start_);
+    group.rotation_at_end = rotation_.measure(static_cast<int>(g), state_, reference_state_);
   }
 }
 
@@ -61,11 +66,24 @@ void ErrorMeter::motion(const MotionPiece& piece) {
     const double beyond = forward * (t - to);
     if (beyond > kRounding * std::abs(sample_)) break;
     raise(at_samples_, deviation(piece, beyond > 0.0 ? to : t));
+    note_rotation(piece.group, group.next_sample, t);
     ++group.next_sample;
   }
   group.until = to;
   group.at_end = deviation(piece, to);
+  if (!rotation_.empty()) group.rotation_at_end = rotation_.measure(piece.group, state_, reference_state_);
   if (piece.ends_step && to == piece.to) raise(at_nodes_, group.at_end);
+}
+
+void ErrorMeter::note_rotation(int group, long sample, double t) {
+  if (rotation_.empty()) return;
+  const RotationDeviation deviation = rotation_.measure(group, state_, reference_state_);
+  raise(rotation_at_samples_, deviation);
+  if (sample % history_stride_ != 0) return;
+  const auto index = static_cast<std::size_t>(sample / history_stride_);
+  if (rotation_history_.size() <= index) rotation_history_.resize(index + 1);
+  rotation_history_[index].time = t;
+  raise(rotation_history_[index].deviation, deviation);
 }
 
 Deviation ErrorMeter::deviation(const MotionPiece& piece, double t) {
@@ -75,8 +93,10 @@ Deviation ErrorMeter::deviation(const MotionPiece& piece, double t) {
 }
 
 void ErrorMeter::read_reference(int group, double t) {
-  reference_.state(group, t, reference_state_);
-  settle_orientations(*world_, group, reference_state_);
+  Eigen::VectorXd carried;
+  reference_.state(group, t, carried);
+  settle_orientations(reference_world_, group, carried);
+  reference_state_ = carried_as_in(*world_, reference_world_, group, carried);
   align_orientations(*world_, group, reference_state_, state_);
 }
 
@@ -95,6 +115,12 @@ Deviation ErrorMeter::at_end() const {
   Deviation result;
   for (const Group& group : groups_) raise(result, group.at_end);
   return result;
+}
+
+RotationDeviation ErrorMeter::rotation_at_end() const {
+  RotationDeviation worst;
+  for (const Group& group : groups_) raise(worst, group.rotation_at_end);
+  return worst;
 }
 
 double ErrorMeter::compared_until() const {

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "rotation_meter.hpp"
 #include "trajet/sim/compare.hpp"
 #include "trajet/sim/reference.hpp"
 #include "trajet/sim/world.hpp"
@@ -11,8 +12,10 @@ namespace trajet {
 /// Measures a run against a reference while it goes on, and passes it on to an onlooker.
 class ErrorMeter : public RunObserver {
  public:
-  /// `onlooker` may be null. Both outlive the meter.
-  ErrorMeter(const Reference& reference, RunObserver* onlooker) : reference_(reference), onlooker_(onlooker) {}
+  /// `reference_world` says what the numbers of the reference's states mean: its orientations may be carried in another
+  /// way. `onlooker` may be null. All outlive the meter.
+  ErrorMeter(const Reference& reference, const World& reference_world, RunObserver* onlooker)
+      : reference_(reference), reference_world_(reference_world), onlooker_(onlooker) {}
 
   void begin(const World& world) override;
   void motion(const MotionPiece& piece) override;
@@ -21,6 +24,9 @@ class ErrorMeter : public RunObserver {
   Deviation at_end() const;
   Deviation at_samples() const { return at_samples_; }
   Deviation at_nodes() const { return at_nodes_; }
+  RotationDeviation rotation_at_end() const;
+  RotationDeviation rotation_at_samples() const { return rotation_at_samples_; }
+  std::vector<RotationSample> rotation_history() const { return rotation_history_; }
   /// Until when all groups were compared, s.
   double compared_until() const;
 
@@ -32,6 +38,7 @@ class ErrorMeter : public RunObserver {
     long next_sample = 1;
     double until = 0.0;  // s
     Deviation at_end;
+    RotationDeviation rotation_at_end;
   };
 
   /// At a time on the piece.
@@ -39,8 +46,11 @@ class ErrorMeter : public RunObserver {
   /// Of `state_` from `reference_state_`.
   Deviation deviation(const Group& group) const;
   void read_reference(int group, double t);
+  /// Of the states that are at hand, those of the sample of that index.
+  void note_rotation(int group, long sample, double t);
 
   const Reference& reference_;
+  const World& reference_world_;
   RunObserver* onlooker_;
   const World* world_ = nullptr;  // while the run lasts
   double start_ = 0.0;            // s
@@ -48,6 +58,10 @@ class ErrorMeter : public RunObserver {
   std::vector<Group> groups_;
   Deviation at_samples_;
   Deviation at_nodes_;
+  RotationMeter rotation_;
+  RotationDeviation rotation_at_samples_;
+  std::vector<RotationSample> rotation_history_;
+  long history_stride_ = 1;  // samples for each entry of the history
   Eigen::VectorXd state_;  // scratch
   Eigen::VectorXd reference_state_;
 };

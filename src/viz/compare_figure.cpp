@@ -9,6 +9,7 @@
 #include "motions_panel.hpp"
 #include "plot_panel.hpp"
 #include "pose_strip.hpp"
+#include "rotation_panels.hpp"
 #include "row_style.hpp"
 #include "trajet/law/did_you_mean.hpp"
 
@@ -21,7 +22,7 @@ using detail::quoted;
 using detail::Range;
 using detail::RowStyle;
 
-/// Of a figure without solids; theirs is higher by the pictures of them.
+/// Of a figure without solids; theirs is higher by the pictures of them and by what becomes of their rotation.
 constexpr FigureSize kSize{1240, 760};
 /// Errors below this are rounding, and zero has no logarithm.
 constexpr double kSmallestError = 1e-17;
@@ -32,9 +33,10 @@ class CompareFigure {
                 const std::optional<ShownComponent>& component)
       : comparison_(comparison),
         styles_(detail::row_styles(comparison)),
-        motions_(comparison, world, motions, component, styles_) {
+        motions_(comparison, world, motions, component, styles_),
+        rotations_(comparison, styles_) {
     if (!component) strip_ = motions_.strip();
-    size_.height += strip_.height();
+    size_.height += strip_.height() + rotations_.height();
   }
 
   Figure build() {
@@ -58,6 +60,7 @@ class CompareFigure {
           {24.0 / size_.width, 1.0 - 24.0 / size_.width, 8.0 / size_.height, (strip_.height() - 4.0) / size_.height},
           size_);
     }
+    if (!rotations_.is_empty()) script_ += rotations_.script(strip_.height(), size_);
     script_ += "unset multiplot\n";
     return {std::move(script_), size_};
   }
@@ -79,7 +82,8 @@ class CompareFigure {
 
   /// A frame of the figure without solids, in the one above them.
   Frame upper(Frame frame) const {
-    for (double* y : {&frame.bottom, &frame.top}) *y = (*y * kSize.height + strip_.height()) / size_.height;
+    for (double* y : {&frame.bottom, &frame.top})
+      *y = (*y * kSize.height + strip_.height() + rotations_.height()) / size_.height;
     return frame;
   }
 
@@ -133,6 +137,7 @@ class CompareFigure {
   const Comparison& comparison_;
   std::vector<RowStyle> styles_;
   detail::MotionsPanel motions_;
+  detail::RotationPanels rotations_;
   detail::PoseStrip strip_;
   FigureSize size_ = kSize;
   std::string script_;

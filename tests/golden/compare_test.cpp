@@ -86,6 +86,27 @@ TEST(CompareCommand, ComparesWaysOfCarryingOrientations) {
   EXPECT_EQ(drag["rows"][0]["orientation"], nullptr);
 }
 
+TEST(CompareCommand, TellsOfSolidsWhatBecomesOfThem) {
+  const TemporaryFolder folder;
+  const std::string ball = TRAJET_SOURCE_DIR "/examples/notes/soccer_ball.toml";
+  const ProgramResult result = run_trajet({"compare", ball, "--methods", "euler", "--steps", "100", "--json",
+                                           folder.file("c.json"), "--csv", folder.file("c.csv")});
+  EXPECT_NE(result.out.find("|q|"), std::string::npos) << result.out;
+  EXPECT_NE(result.out.find("1.28323"), std::string::npos) << result.out;
+  const Json report = Json::parse(read_text(folder.file("c.json")));
+  EXPECT_EQ(report["components"], Json({"ball.r", "ball.v", "ball.orientation", "ball.w"}));
+  const Json& row = report["rows"][0];
+  EXPECT_NEAR(row["quaternion_norm_at_end"], 1.28322581493537, 5e-15);  // F104
+  EXPECT_NEAR(row["angle_error_at_end"], 0.0234997669214770, 1e-14);    // F105
+  EXPECT_EQ(row["max_energy_drift"], nullptr);
+  EXPECT_NE(read_text(folder.file("c.csv")).find(",determinant_at_end,quaternion_norm_at_end,angle_error_at_end,"),
+            std::string::npos);
+  // nothing of it where nothing turns
+  const ProgramResult particle = run_trajet({"compare", kDrag, "--methods", "euler", "--csv", folder.file("d.csv")});
+  EXPECT_EQ(particle.out.find("|q|"), std::string::npos) << particle.out;
+  EXPECT_EQ(read_text(folder.file("d.csv")).find("determinant"), std::string::npos);
+}
+
 TEST(CompareCommand, TellsWhatIsWrong) {
   struct Case {
     std::vector<std::string> options;

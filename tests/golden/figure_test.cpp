@@ -184,6 +184,9 @@ TEST(Figure, OfAComparisonShowsSolidsBelowOneAnother) {
   for (const char* label :
        {"exact, 100 steps", "quaternion, 100 steps", "quaternion-normalized, 100 steps", "2 s", "10 s"})
     EXPECT_NE(text.find(label), std::string::npos) << label;
+  for (const char* label : {"|det R - 1|", "angle from the reference [rad]"})
+    EXPECT_NE(text.find(label), std::string::npos) << label;
+  EXPECT_EQ(text.find("relative drift"), std::string::npos);  // of energy: the ball has no inertia
   // F101: 16 of the 32 faces of each of the three balls at six times, and the small ones on the way
   EXPECT_GE(polygons(svg).size(), 3U * 6U * 14U);
 }

@@ -5,7 +5,9 @@
 #include <filesystem>
 #include <fstream>
 #include <numbers>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "scene_run.hpp"
 #include "trajet/sim/compare.hpp"
@@ -209,6 +211,81 @@ TEST(SolidScene, OrientationsAreComparedWithClosedForms) {
                 largest(stretch * std::cos(angle) - std::cos(2.0), stretch * std::sin(angle) - std::sin(2.0)), 1e-13)
         << form;
     EXPECT_LE(*row("rotation-vector", form).at_samples.state, 1e-14) << form;
+  }
+}
+
+// The same motion again: R is multiplied by 1 + h w~, of determinant 1 + (h w)^2; q by a number of length
+// sqrt(1 + (h w/2)^2), and R = q (.) q* grows by the sixth power of it.
+TEST(SolidScene, ComparisonsTellWhatBecomesOfRotations) {
+  const std::string exact = "[exact]\nb.orientation = {axis = [0, 0, 1], angle = \"2*t\"}\n";
+  ComparePlan plan = euler_with(10);
+  plan.orientations = {OrientationWay::matrix, OrientationWay::quaternion, OrientationWay::quaternion_normalized};
+  const Comparison comparison = compare(parse_scene(scene("angular_velocity = [0, 0, 2]", exact), "s"), plan);
+  EXPECT_TRUE(comparison.turns);
+  ASSERT_EQ(comparison.rows.size(), 3u);
+  const double h = 0.1, length = std::pow(1 + h * h, 5.0), by_quaternion = std::abs(20 * std::atan(h) - 2);
+  const struct {
+    double determinant;
+    std::optional<double> norm;
+    double angle;
+  } expected[] = {{std::pow(1 + 4 * h * h, 10.0), std::nullopt, std::abs(10 * std::atan(2 * h) - 2)},
+                  {std::pow(length, 6.0), length, by_quaternion},
+                  {1.0, 1.0, by_quaternion}};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const RotationDeviation& end = comparison.rows[i].rotation_at_end;
+    EXPECT_NEAR(*end.determinant, expected[i].determinant, 1e-13) << i;
+    ASSERT_EQ(end.norm.has_value(), expected[i].norm.has_value()) << i;
+    EXPECT_NEAR(end.norm.value_or(0.0), expected[i].norm.value_or(0.0), 1e-13) << i;
+    EXPECT_NEAR(*end.angle_rad, expected[i].angle, 1e-13) << i;
+    EXPECT_NEAR(*comparison.rows[i].rotation_at_samples.angle_rad, expected[i].angle, 1e-13) << i;
+    EXPECT_FALSE(end.energy || end.momentum) << i;  // without an inertia
+    const std::vector<RotationSample>& history = comparison.rows[i].rotation_history;
+    ASSERT_EQ(history.size(), 201u) << i;
+    EXPECT_EQ(history[0].time, 0.0);
+    EXPECT_NEAR(history[200].time, 1.0, 1e-12);
+    EXPECT_NEAR(*history[200].deviation.angle_rad, expected[i].angle, 1e-13) << i;
+  }
+  const Scene still = parse_scene("[time]\nend = 1\n[[state]]\nname = \"y\"\nvalue = 1\nrate = \"-y\"\n", "s");
+  EXPECT_FALSE(compare(still, euler_with(2)).turns);
+}
+
+// One step of Euler's method from q = 1: w becomes w + h dw/dt, q becomes (1, h w/2).
+TEST(SolidScene, ComparisonsTellTheDriftOfEnergyAndMomentum) {
+  const Vector3 I(1, 2, 2.5), w(1, -2, 0.5);
+  const double h = 0.125;
+  const std::string top = "inertia = [1, 2, 2.5]\nangular_velocity = [1, -2, 0.5]";
+  Scene scene_of_top = parse_scene(scene(top), "s");
+  scene_of_top.time.end = Expression::number(h, {});
+  ComparePlan plan = euler_with(1);
+  plan.orientations = {OrientationWay::quaternion, OrientationWay::quaternion_normalized};
+  const Comparison comparison = compare(scene_of_top, plan);
+  const Vector3 L = I.cwiseProduct(w), w1 = w - h * I.cwiseInverse().cwiseProduct(w.cross(L)), L1 = I.cwiseProduct(w1);
+  const Quaternion q1 = Quaternion(1.0, h / 2 * w.x(), h / 2 * w.y(), h / 2 * w.z()).normalized();
+  const RotationDeviation& end = comparison.rows.at(0).rotation_at_end;
+  EXPECT_NEAR(*end.energy, std::abs(w1.dot(L1) / w.dot(L) - 1), 1e-14);
+  EXPECT_NEAR(*end.momentum, (rotate<double>(q1, L1) - L).norm() / L.norm(), 1e-14);
+  EXPECT_LE(*comparison.rows.at(1).rotation_at_end.energy, 1e-14);  // put back
+  EXPECT_LE(*comparison.rows.at(1).rotation_at_end.momentum, 1e-14);
+}
+
+// The reference carries its orientation in the scene's way, each row in its own: the numbers are made the row's.
+TEST(SolidScene, WaysAreComparedWithOneReference) {
+  const std::string tops =
+      "inertia = [1, 2, 2.5]\nangular_velocity = [1, -2, 0.5]\ntorque = \"c.w - w\"\n[[body]]\nname = \"c\"\n"
+      "inertia = [1, 2, 2.5]\nangular_velocity = [0, 1, 0.5]\ntorque = \"0.1*b.w\"\n";
+  for (const char* way : {"quaternion", "matrix", "rotation-vector"}) {
+    ComparePlan plan;
+    plan.methods = {"rk4"};
+    plan.step_counts = {50};
+    plan.orientations = {OrientationWay::matrix, OrientationWay::quaternion, OrientationWay::rotation_vector,
+                         OrientationWay::quaternion_normalized};
+    const std::string method = "[method]\norientation = \"" + std::string(way) + "\"\n";
+    const Comparison comparison = compare(parse_scene(scene(tops, method), "s"), plan);
+    ASSERT_EQ(comparison.rows.size(), 4u);
+    for (const ComparisonRow& row : comparison.rows) {
+      EXPECT_LE(*row.at_samples.state, 1e-6) << way << " " << row.orientation;
+      EXPECT_GT(*row.at_samples.state, 1e-10) << way << " " << row.orientation;
+    }
   }
 }
 

@@ -36,6 +36,22 @@ struct Deviation {
   std::optional<double> position;  ///< over those of positions, m
 };
 
+/// What has become of the bodies that turn: of each quantity the value of the body that fares worst, none where no body
+/// has it.
+struct RotationDeviation {
+  std::optional<double> determinant;  ///< of the matrix R as carried; 1 for a rotation
+  std::optional<double> norm;         ///< |q| as carried, where a quaternion is
+  std::optional<double> angle_rad;    ///< between the orientation and that of the reference, 0 … pi
+  std::optional<double> energy;       ///< |T - T_0| / T_0 of a free body with an inertia, T its energy of rotation
+  std::optional<double> momentum;     ///< |L - L_0| / |L_0|, L its angular momentum in the world's frame
+};
+
+/// The same at a time.
+struct RotationSample {
+  double time = 0.0;  ///< s
+  RotationDeviation deviation;
+};
+
 /// One method with one step or tolerance.
 struct ComparisonRow {
   std::string method;          ///< canonical name
@@ -50,6 +66,9 @@ struct ComparisonRow {
   Deviation at_end;             ///< at `compared_until`
   Deviation at_samples;         ///< maximum over the scene's samples
   Deviation at_nodes;           ///< maximum over the ends of the method's own steps
+  RotationDeviation rotation_at_end;
+  RotationDeviation rotation_at_samples;           ///< the worst over the scene's samples
+  std::vector<RotationSample> rotation_history{};  ///< at samples, at most some 500 of them
   std::size_t impacts = 0;
   RunStatistics statistics;  ///< the time is the shortest of a few runs where these are short
 
@@ -64,6 +83,7 @@ struct Comparison {
   std::optional<double> reference_atol;
   std::optional<double> reference_step;  ///< s
   std::vector<std::string> components;   ///< what is compared: `ball.r`, `ball.v`, an extra state
+  bool turns = false;                    ///< some body of the scene does: rows tell its RotationDeviation
   std::shared_ptr<const Reference> reference;
   double start_time = 0.0;
   double end_time = 0.0;  ///< asked for
