@@ -108,7 +108,7 @@ SpaceAxes space_axes(const Eigen::AlignedBox3d& box, const View& view) {
   }
   labels.add("'y [m]'", at(high.x(), 0.5 * (low.y() + high.y()), low.z()) + Vector2(32.0, -26.0), "left");
   // z: on the left
-  for (const double z : marks(low.z(), high.z(), length(2), 28.0, 17.0)) {
+  for (const double z : marks(low.z(), high.z(), length(2), 36.0, 17.0)) {
     result.walls.push_back({at(low.x(), low.y(), z), at(low.x(), high.y(), z), at(high.x(), high.y(), z)});
     labels.add(z, at(low.x(), low.y(), z) + Vector2(-9.0, 0.0), "right");
     result.axes.push_back({at(low.x(), low.y(), z), at(low.x(), low.y(), z) + Vector2(-5.0, 0.0)});
