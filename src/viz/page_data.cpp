@@ -1,5 +1,6 @@
 #include "page_data.hpp"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <optional>
@@ -46,32 +47,42 @@ Json object(const Box& box) {
           {"axes", {array(R.col(0)), array(R.col(1)), array(R.col(2))}}};
 }
 
-/// Columns behind the last one that changes the Segment's value in double precision are left out.
-int significant_degree(const Segment<>& segment, double duration) {
+/// Degrees are packed into doubles, which hold integers of 53 bits.
+constexpr int kDegreesOfNumber = 6;
+constexpr double kDegreeBase = 256.0;
+
+/// The degree of a component's polynomial, at most 255, without the coefficients behind the last one that changes its
+/// value in double precision within `duration` (s).
+int significant_degree(const Segment<>& segment, int component, double duration) {
   const auto& c = segment.coefficients();
-  Eigen::VectorXd size = c.col(0).cwiseAbs();
+  double largest = 0.0;
   double power = 1.0;
-  for (int k = 1; k <= segment.degree(); ++k) {
-    power *= duration;
-    size = size.cwiseMax(c.col(k).cwiseAbs() * power);
-  }
+  for (int k = 0; k <= segment.degree(); ++k, power *= duration)
+    largest = std::max(largest, std::abs(c(component, k)) * power);
   constexpr double kHalfUlp = 0x1p-53;
-  int degree = segment.degree();
-  for (; degree > 0; --degree, power /= duration)
-    if (((c.col(degree).cwiseAbs() * power).array() > kHalfUlp * size.array()).any()) break;
+  int degree = 0;
+  power = 1.0;
+  for (int k = 0; k <= segment.degree() && k < kDegreeBase; ++k, power *= duration)
+    if (std::abs(c(component, k)) * power > kHalfUlp * largest) degree = k;
   return degree;
 }
 
-/// All pieces of a group as numbers, one after the other: from, to, the Segment's t0, degree n, and then the
-/// coefficients of (t - t0)^0 for every component, those of (t - t0)^1, ..., (t - t0)^n.
+/// All pieces of a group as numbers, one after the other: from, to, the Segment's t0, the degrees of all components,
+/// six to a number as its digits to the base 256, the first the least, and then the coefficients of each component, (t
+/// - t0)^0 first.
 std::string packed(const std::vector<MotionRecord::Piece>& pieces) {
   std::vector<double> numbers;
   for (const MotionRecord::Piece& piece : pieces) {
     const Segment<>& segment = piece.segment;
-    const int degree = significant_degree(segment, std::abs(segment.duration()));
-    numbers.insert(numbers.end(), {piece.from, piece.to, segment.t0(), static_cast<double>(degree)});
-    const double* first = segment.coefficients().data();
-    numbers.insert(numbers.end(), first, first + segment.dimension() * (degree + 1));
+    numbers.insert(numbers.end(), {piece.from, piece.to, segment.t0()});
+    std::vector<int> degrees;
+    for (int i = 0; i < segment.dimension(); ++i) {
+      degrees.push_back(significant_degree(segment, i, std::abs(segment.duration())));
+      if (i % kDegreesOfNumber == 0) numbers.push_back(0.0);
+      numbers.back() += degrees.back() * std::pow(kDegreeBase, i % kDegreesOfNumber);
+    }
+    for (int i = 0; i < segment.dimension(); ++i)
+      for (int k = 0; k <= degrees[static_cast<std::size_t>(i)]; ++k) numbers.push_back(segment.coefficients()(i, k));
   }
   return base64({reinterpret_cast<const std::uint8_t*>(numbers.data()), numbers.size() * sizeof(double)});
 }

@@ -35,8 +35,7 @@ export function trailOf(body: BodyMotion, tolerance: number): Trail {
     const begin = track.pieceBegin(piece);
     const duration = track.pieceEnd(piece) - begin;
     const second = (t: number): number => Math.hypot(...track.vector(piece, body.data.position, t, 2));
-    const bend =
-      track.degree(piece) < 2 ? 0 : Math.max(...[0, 0.25, 0.5, 0.75, 1].map((part) => second(begin + part * duration)));
+    const bend = Math.max(...[0, 0.25, 0.5, 0.75, 1].map((part) => second(begin + part * duration)));
     const wanted = duration * Math.max(Math.sqrt(bend / (8 * tolerance)), kFewestLines / (track.end - track.begin));
     const lines = Math.min(kMostLinesOfPiece, Math.max(1, Math.ceil(wanted)));
     const turns = piece + 1 === track.count || jumps(track, piece, body.data.velocity, 3);

@@ -1,26 +1,51 @@
 import { decodeDoubles } from "./data";
 
+const kDegreesOfNumber = 6;
+const kDegreeBase = 256;
+
+/** The degree of a component, of those that are stored from `first` on. */
+const degreeOf = (numbers: Float64Array, first: number, component: number): number =>
+  Math.floor(numbers[first + Math.floor(component / kDegreesOfNumber)] / kDegreeBase ** (component % kDegreesOfNumber)) % kDegreeBase;
+
 /**
  * The motion of one group of bodies and states: pieces of polynomials in time, one after the other.
  *
- * A piece is stored as the numbers from, to, t0, n and then the coefficients of (t - t0)^0 for every component, those of
- * (t - t0)^1, …, (t - t0)^n. It stands for the half-open interval [from, to); the last one for its end as well. Where a
+ * A piece is stored as the numbers from, to, t0, the degrees of all components, six to a number as its digits to the base
+ * 256, the first the least, and then the coefficients of each component, (t - t0)^0 first. It stands for the half-open interval [from, to); the last one for its end as well. Where a
  * body bounces, the values jump between two pieces.
  */
 export class Track {
   private readonly begins: Float64Array;
   private readonly ends: Float64Array;
+  /** Where a piece begins in the numbers, and where the coefficients of each of its components do; how many these are. */
   private readonly places: Int32Array;
+  private readonly coefficients: Int32Array;
+  private readonly degrees: Uint8Array;
 
   constructor(
     private readonly numbers: Float64Array,
     readonly dimension: number,
   ) {
     const places: number[] = [];
-    for (let at = 0; at < numbers.length; at += 4 + dimension * (numbers[at + 3] + 1)) places.push(at);
+    for (let at = 0; at < numbers.length; ) {
+      places.push(at);
+      const first = at + 3;
+      at = first + Math.ceil(dimension / kDegreesOfNumber);
+      for (let i = 0; i < dimension; ++i) at += degreeOf(numbers, first, i) + 1;
+    }
     // A run backward in time has its last piece first.
     if (places.length > 0 && numbers[0] > numbers[1]) places.reverse();
     this.places = Int32Array.from(places);
+    this.coefficients = new Int32Array(places.length * dimension);
+    this.degrees = new Uint8Array(places.length * dimension);
+    places.forEach((place, piece) => {
+      let at = place + 3 + Math.ceil(dimension / kDegreesOfNumber);
+      for (let i = 0; i < dimension; ++i) {
+        this.coefficients[piece * dimension + i] = at;
+        this.degrees[piece * dimension + i] = degreeOf(numbers, place + 3, i);
+        at += degreeOf(numbers, place + 3, i) + 1;
+      }
+    });
     this.begins = Float64Array.from(places, (at) => Math.min(numbers[at], numbers[at + 1]));
     this.ends = Float64Array.from(places, (at) => Math.max(numbers[at], numbers[at + 1]));
   }
@@ -44,10 +69,6 @@ export class Track {
   pieceEnd(piece: number): number {
     return this.ends[piece];
   }
-  degree(piece: number): number {
-    return this.numbers[this.places[piece] + 3];
-  }
-
   /** The piece that stands for time t; the first or the last one where t lies outside. */
   pieceAt(t: number): number {
     let low = 0;
@@ -62,15 +83,14 @@ export class Track {
 
   /** A component at time t, or its time derivative of that order, by Horner's rule on the piece's polynomial. */
   value(piece: number, component: number, t: number, derivative = 0): number {
-    const at = this.places[piece];
-    const tau = t - this.numbers[at + 2];
-    const first = at + 4 + component;
+    const tau = t - this.numbers[this.places[piece] + 2];
+    const at = this.coefficients[piece * this.dimension + component];
     let sum = 0;
-    for (let k = this.numbers[at + 3]; k >= derivative; --k) {
+    for (let k = this.degrees[piece * this.dimension + component]; k >= derivative; --k) {
       // d^m/dt^m t^k = k (k - 1) … (k - m + 1) t^(k - m)
       let factor = 1;
       for (let i = 0; i < derivative; ++i) factor *= k - i;
-      sum = sum * tau + factor * this.numbers[first + k * this.dimension];
+      sum = sum * tau + factor * this.numbers[at + k];
     }
     return sum;
   }

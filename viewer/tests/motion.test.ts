@@ -3,6 +3,7 @@ import type { BodyData, RotationData, RunData } from "../src/data";
 import { BodyMotion, namedRuns, product, quaternionOfMatrix, quaternionOfRotationVector, rotated } from "../src/motion";
 import { trailOf } from "../src/sampling";
 import { Track } from "../src/track";
+import { constant, piece } from "./pieces";
 
 const body = (more: Partial<BodyData> = {}): BodyData => ({
   name: "ball",
@@ -28,10 +29,7 @@ const rotation = (more: Partial<RotationData>): RotationData => ({
 });
 
 // r = (3 t, 0, 4 t - 5 t^2), v = (3, 0, 4 - 10 t)
-const flight = new Track(
-  Float64Array.from([0, 1, 0, 2, 0, 0, 0, 3, 0, 4, 3, 0, 4, 0, 0, -10, 0, 0, -5, 0, 0, 0]),
-  6,
-);
+const flight = new Track(Float64Array.from(piece(0, 1, 0, [0, 3], [0], [0, 4, -5], [3], [0], [4, -10])), 6);
 
 describe("a body", () => {
   it("has the quantities of its path", () => {
@@ -62,8 +60,9 @@ describe("a body", () => {
     // ten times around a circle of radius 1 at 1 rad/s, in straight steps of 1 ms
     const steps = Array.from({ length: 62832 }, (_, i) => {
       const [t, h] = [1e-3 * i, 1e-3];
-      return [t, t + h, t, 1, Math.cos(t), Math.sin(t), 0, -Math.sin(t), Math.cos(t), 0, -Math.sin(t), Math.cos(t), 0, 0, 0, 0];
-    }); // prettier-ignore
+      const [c, s] = [Math.cos(t), Math.sin(t)];
+      return piece(t, t + h, t, [c, -s], [s, c], [0], [-s], [c], [0]);
+    });
     const tolerance = 5e-4;
     const { times, points } = trailOf(new BodyMotion(body(), new Track(Float64Array.from(steps.flat()), 6)), tolerance);
     // a chord may leave the circle by twice the tolerance: 2 sqrt(8 * tolerance) rad each
@@ -99,7 +98,7 @@ describe("an orientation", () => {
   });
 
   it("is shown normalised, and its defect is told", () => {
-    const track = new Track(Float64Array.from([0, 1, 0, 0, 0, 0, 0, 0, 0, 0, 1.2, 0, 0, 1.6, 0, 0, 5]), 13);
+    const track = new Track(Float64Array.from(constant([0, 0, 0, 0, 0, 0, 1.2, 0, 0, 1.6, 0, 0, 5])), 13);
     const motion = new BodyMotion(body({ rotation: rotation({ kind: "quaternion" }) }), track);
     motion.orientation(0.5).forEach((each, i) => expect(each).toBeCloseTo([0.6, 0, 0, 0.8][i], 15));
     expect(motion.orientationDefect(0.5)).toBeCloseTo(1, 15);
@@ -114,7 +113,7 @@ describe("an orientation", () => {
     const start = quaternionOfRotationVector([0.3, 0, 0]);
     const added = quaternionOfRotationVector([0, 0.2, 0]);
     const state = [0, 0, 0, 0, 0, 0, ...start, 0, 0.2, 0, 1, 2, 3];
-    const track = new Track(Float64Array.from([0, 1, 0, 0, ...state]), state.length);
+    const track = new Track(Float64Array.from(constant(state)), state.length);
     for (const frame of ["world", "body"] as const) {
       const motion = new BodyMotion(body({ rotation: rotation({ kind: "rotation-vector", frame, angular_velocity: 13 }) }), track);
       const expected = frame === "world" ? product(added, start) : product(start, added);
@@ -126,7 +125,7 @@ describe("an orientation", () => {
 
   it("has the energy of rotation about any axis of its inertia", () => {
     const state = [0, 0, 0, 0, 0, 0, ...quaternionOfRotationVector([0, 0, Math.PI / 2]), 2, 0, 0];
-    const track = new Track(Float64Array.from([0, 1, 0, 0, ...state]), state.length);
+    const track = new Track(Float64Array.from(constant(state)), state.length);
     const inertia: RotationData["inertia"] = [[1, 0, 0], [0, 7, 0], [0, 0, 3]]; // prettier-ignore
     // the world's x axis is the body's -y axis: 7 * 2^2 / 2
     const motion = new BodyMotion(body({ mass: 1, rotation: rotation({ kind: "quaternion", inertia }) }), track);

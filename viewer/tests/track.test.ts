@@ -1,12 +1,12 @@
 import { describe, expect, it } from "vitest";
 import { jumpsOf, samplingTimes } from "../src/sampling";
 import { Track } from "../src/track";
+import { piece } from "./pieces";
 
-/** from, to, t0, degree, coefficients. */
 const numbers = (...pieces: number[][]): Float64Array => Float64Array.from(pieces.flat());
 
 // q = (x, v): a fall x = 1 - 2 t^2 until t = 0.5, then upward with v = 1 from x = 0.5.
-const bounce = new Track(numbers([0, 0.5, 0, 2, 1, 0, 0, -4, -2, 0], [0.5, 2, 0.5, 1, 0.5, 1, 1, 0]), 2);
+const bounce = new Track(numbers(piece(0, 0.5, 0, [1, 0, -2], [0, -4]), piece(0.5, 2, 0.5, [0.5, 1], [1])), 2);
 
 describe("a track", () => {
   it("evaluates polynomials about each piece's own origin", () => {
@@ -21,9 +21,19 @@ describe("a track", () => {
     expect([-1, 0, 0.4999, 0.5, 1, 2, 9].map((t) => bounce.pieceAt(t))).toEqual([0, 0, 0, 1, 1, 1, 1]);
   });
 
+  it("keeps the components apart, more than six and of different degrees", () => {
+    const components = Array.from({ length: 13 }, (_, i) => Array.from({ length: 1 + ((5 * i) % 31) }, (_, k) => i + k / 32));
+    const track = new Track(numbers(piece(0, 1, 0, ...components), piece(1, 2, 1, ...[...components].reverse())), 13);
+    components.forEach((coefficients, i) => {
+      const sum = coefficients.reduceRight((value, each) => value * 0.5 + each, 0);
+      expect(track.value(0, i, 0.5)).toBe(sum);
+      expect(track.value(1, 12 - i, 1.5)).toBe(sum);
+    });
+  });
+
   it("turns a run backward in time around", () => {
     // x = t on [1, 2] and then on [0, 1], as the run came through it
-    const backward = new Track(numbers([2, 1, 2, 1, 2, 1], [1, 0, 1, 1, 1, 1]), 1);
+    const backward = new Track(numbers(piece(2, 1, 2, [2, 1]), piece(1, 0, 1, [1, 1])), 1);
     expect([backward.begin, backward.end]).toEqual([0, 2]);
     for (const t of [0, 0.5, 1, 1.5, 2]) expect(backward.value(backward.pieceAt(t), 0, t)).toBe(t);
   });
