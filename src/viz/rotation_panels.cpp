@@ -10,7 +10,7 @@
 namespace trajet::detail {
 namespace {
 
-/// Drifts below this are rounding, and zero has no logarithm.
+/// Drifts below this are rounding.
 constexpr double kRounding = 1e-16;
 
 struct Quantity {
@@ -28,16 +28,19 @@ constexpr Quantity kQuantities[] = {
     {"relative drift of energy", [](const RotationDeviation& deviation) { return deviation.energy; }},
     {"relative drift of momentum", [](const RotationDeviation& deviation) { return deviation.momentum; }}};
 
+/// Without those that are 0, as at the start: they have no logarithm.
 std::vector<std::vector<double>> points(const ComparisonRow& row, const Quantity& quantity) {
   std::vector<std::vector<double>> points;
   for (const RotationSample& sample : row.rotation_history)
-    if (const auto value = quantity.of(sample.deviation)) points.push_back({sample.time, std::max(*value, kRounding)});
+    if (const auto value = quantity.of(sample.deviation); value && *value > 0.0)
+      points.push_back({sample.time, std::max(*value, kRounding)});
   return points;
 }
 
 }  // namespace
 
-RotationPanels::RotationPanels(const Comparison& comparison, const std::vector<RowStyle>& styles) {
+RotationPanels::RotationPanels(const Comparison& comparison, const std::vector<RowStyle>& styles)
+    : start_time_(comparison.start_time) {
   if (!comparison.turns) return;
   for (const Quantity& quantity : kQuantities) {
     Panel panel{quantity.title, {}};
@@ -65,6 +68,7 @@ std::string RotationPanels::script(int bottom, const FigureSize& size) const {
     const Panel& panel = panels_[p];
     const double left = kLeft + static_cast<double>(p) * (width + kGap);
     Range times, values;
+    times.include(start_time_);
     std::string plot;
     for (const Line& line : panel.lines) {
       for (const auto& point : line.points) {

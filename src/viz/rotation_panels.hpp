@@ -32,6 +32,7 @@ class RotationPanels {
     std::string title;
     std::vector<Line> lines;
   };
+  double start_time_;  // s
   std::vector<Panel> panels_;
 };
 
