@@ -3,6 +3,7 @@
 readme.py extract README OUTPUT            writes the C++ example to OUTPUT
 readme.py check README EXAMPLE PROGRAM     runs the built example and the shell blocks, and compares their output
 readme.py page DOCUMENT PROGRAM            runs the shell blocks, compares their output, and looks for their figures
+readme.py features FIRST LAST DOCUMENT...  looks for each feature, F8, F9 or F8–F11, in the text below headings
 readme.py refresh DOCUMENT PROGRAM         writes the outputs as they are now into the document, and the figures beside it
 
 A ```text block holds the output of the ```cpp or ```sh block before it. In it, `…` stands for any part of a line.
@@ -17,6 +18,7 @@ import subprocess
 import sys
 import tempfile
 
+FEATURE = re.compile(r"\bF(\d+)(?:–F(\d+))?")
 FIGURE = re.compile(r"--plot (\S+)")
 BLOCK = re.compile(r"^```(\w+)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 
@@ -115,6 +117,18 @@ def page(document, program):
     return len(results) > 0 and all(results)
 
 
+def features(first, last, *documents):
+    """Whether the documents tell of every feature from the first to the last."""
+    told = set()
+    for document in documents:
+        text = re.sub(r"^#.*$", "", pathlib.Path(document).read_text(encoding="utf-8"), flags=re.M)
+        for begin, end in FEATURE.findall(text):
+            told.update(range(int(begin), int(end or begin) + 1))
+    missing = sorted(set(range(int(first), int(last) + 1)) - told)
+    print("not told: " + ", ".join(f"F{number}" for number in missing) if missing else "all are told")
+    return not missing
+
+
 def refresh(document, program):
     path = pathlib.Path(document)
     with Workplace(root_of(document), program) as place:
@@ -136,7 +150,7 @@ def refresh(document, program):
     return True
 
 
-MODES = {"check": check, "page": page, "refresh": refresh}
+MODES = {"check": check, "page": page, "features": features, "refresh": refresh}
 
 if __name__ == "__main__":
     if sys.argv[1] == "extract":
