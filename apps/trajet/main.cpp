@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <charconv>
+#include <cmath>
 #include <exception>
 #include <string>
 #include <string_view>
@@ -14,6 +16,16 @@
 namespace trajet {
 namespace {
 
+CLI::Validator positive_number() {
+  const auto check = [](const std::string& text) {
+    double value = 0.0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    const bool is_number = error == std::errc() && end == text.data() + text.size() && std::isfinite(value);
+    return is_number && value > 0.0 ? std::string() : "a positive number expected, got '" + text + "'";
+  };
+  return {check, "", "positive"};
+}
+
 void add_scene_options(CLI::App& command, RunArguments& arguments) {
   command.add_option("SCENE", arguments.scene, "scene file (TOML)")->required();
   SceneOverrides& overrides = arguments.overrides;
@@ -24,9 +36,7 @@ void add_scene_options(CLI::App& command, RunArguments& arguments) {
   command.add_option("--orientation", overrides.orientation, "way of carrying orientations, see 'trajet methods'")
       ->type_name("NAME");
   command.add_option("--step", overrides.step, "step of a fixed-step method, \"10 ms\"")->type_name("DT");
-  command.add_option("--order", overrides.order, "order of a series method")
-      ->type_name("N")
-      ->check(CLI::PositiveNumber);
+  command.add_option("--order", overrides.order, "order of a series method")->type_name("N")->check(positive_number());
   command.add_option("--rtol", overrides.rtol, "relative tolerance")->type_name("X");
   command.add_option("--atol", overrides.atol, "absolute tolerance")->type_name("X");
   command.add_option("--end", overrides.end, "end time, \"5 s\"")->type_name("T");
@@ -53,11 +63,11 @@ void add_compare_options(CLI::App& command, CompareArguments& arguments) {
       ->type_name("NAME,...");
   command.add_option("--steps", arguments.steps, "numbers of steps over the run, for methods of given step")
       ->delimiter(',')
-      ->check(CLI::PositiveNumber)
+      ->check(positive_number())
       ->type_name("N,...");
   command.add_option("--rtols", arguments.rtols, "relative tolerances, for error-controlled methods")
       ->delimiter(',')
-      ->check(CLI::PositiveNumber)
+      ->check(positive_number())
       ->type_name("X,...");
   command.add_option("--show", arguments.show, "what --plot draws against time: ball.z, ball.vx or a state")
       ->type_name("NAME");
@@ -92,7 +102,7 @@ int run_program(int argc, char** argv) {
       ->type_name("FILE");
   run.add_option("--glb", arguments.glb, "write a glTF animation there, - for standard output")->type_name("FILE");
   run.add_option("--fps", arguments.fps, "keys a second of the animation, default: 60")
-      ->check(CLI::PositiveNumber)
+      ->check(positive_number())
       ->type_name("N");
   ViewArguments viewed;
   CLI::App& view = *app.add_subcommand("view", "look at the motion in a browser");

@@ -45,6 +45,7 @@ constexpr std::array kCommonUnits{
     NamedUnit{"g", {1, 1000, kMass}},
     NamedUnit{"mg", {1, 1e6, kMass}},
     NamedUnit{"lb", {45359237, 1e8, kMass}},
+    NamedUnit{"slug", {0.45359237 * 9.80665, 0.3048, kMass}},  // lbf s^2/ft; UDUNITS-2 knows six digits
     NamedUnit{"grain", {6479891, 1e11, kMass}},
     NamedUnit{"N", {1, 1, kForce}},
     NamedUnit{"kN", {1000, 1, kForce}},

@@ -17,9 +17,9 @@ struct NameUse {
 using Names = std::map<std::string, NameUse, std::less<>>;
 
 /// Names that mean something in a body's own laws.
-constexpr std::string_view kOwnNames[] = {"r",   "v",   "w",   "x",   "y",   "z",   "vx",  "vy",  "vz",
-                                          "wx",  "wy",  "wz",  "w_body", "q",   "qw",  "qx",  "qy",  "qz",  "R",
-                                          "Rxx", "Rxy", "Rxz", "Ryx", "Ryy", "Ryz", "Rzx", "Rzy", "Rzz"};
+constexpr std::string_view kOwnNames[] = {"r",   "v",   "w",   "x",      "y",   "z",   "vx",  "vy", "vz",
+                                          "wx",  "wy",  "wz",  "w_body", "qw",  "qx",  "qy",  "qz", "Rxx",
+                                          "Rxy", "Rxz", "Ryx", "Ryy",    "Ryz", "Rzx", "Rzy", "Rzz"};
 /// Parts of a body that `set` may change, and those that `exact` gives.
 constexpr std::string_view kSetParts[] = {"r", "v", "x", "y", "z", "vx", "vy", "vz", "w"};
 constexpr std::string_view kExactParts[] = {"r", "v", "w", "w_body", "orientation"};

@@ -1,5 +1,6 @@
 #include "trajet/io/units.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <cstdlib>
 #include <string>
@@ -83,6 +84,11 @@ std::optional<QuantityText> split_quantity(std::string_view text) {
   if (quantity.unit.empty() || !is_blank(quantity.unit.front())) return std::nullopt;
   while (is_blank(quantity.unit.front())) quantity.unit.remove_prefix(1);
   if (kOperators.find(quantity.unit.front()) != std::string_view::npos) return std::nullopt;
+  for (const std::string_view word : {"and", "or"}) {
+    const std::string_view rest = quantity.unit.substr(std::min(word.size(), quantity.unit.size()));
+    if (quantity.unit.starts_with(word) && !rest.empty() && (is_blank(rest.front()) || rest.front() == '('))
+      return std::nullopt;
+  }
   return quantity;
 }
 

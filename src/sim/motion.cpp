@@ -1,11 +1,13 @@
 #include "motion.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <utility>
 
 #include "trajet/event/path.hpp"
 #include "trajet/law/evaluate.hpp"
+#include "trajet/math/polynomial.hpp"
 
 namespace trajet {
 
@@ -18,8 +20,19 @@ Motion::Motion(const World& world, int group, RunObserver& observer)
     const World::Event& definition = world.events[static_cast<std::size_t>(event)];
     watches_.push_back({event, EventWatch(definition.when, definition.direction)});
   }
+  error_ = Eigen::VectorXd::Zero(this->group().start.size());
   use_law();
   begin(world.start, this->group().start);
+}
+
+void Motion::collect_error(double t) {
+  const double duration = std::abs(t - segment_.t0());
+  for (const int body : group().bodies) {
+    // an error of the velocity moves the body
+    const int offset = world_.bodies[static_cast<std::size_t>(body)].offset;
+    error_.segment<3>(offset) += duration * error_.segment<3>(offset + 3);
+  }
+  error_ += segment_.error_bound() + kUnitRoundoff * end_state_.cwiseAbs();
 }
 
 void Motion::use_law() {
@@ -78,6 +91,7 @@ void Motion::hand_on(double t) {
 
 void Motion::restart(double t, const Eigen::VectorXd& q) {
   hand_on(t);
+  collect_error(t);
   const Eigen::VectorXd before = state(t);
   for (Pair& pair : pairs_) know_until(pair, t);
   for (Watch& watch : watches_) watch.watch.restart(t, before.data(), q.data());
@@ -87,6 +101,7 @@ void Motion::restart(double t, const Eigen::VectorXd& q) {
 
 StepStatus Motion::advance() {
   hand_on(segment_.t1());
+  if (segment_.duration() != 0.0) collect_error(segment_.t1());
   const StepStatus status = stepper_->advance(world_.end);
   if (status != StepStatus::ok) return status;
   for (Pair& pair : pairs_) know_until(pair, segment_.t1());
@@ -121,7 +136,8 @@ ContactResult Motion::first_contact_until(const Pair& pair, double to) const {
   const World::Body& body = world_.bodies[static_cast<std::size_t>(pair.body)];
   const World::Obstacle& obstacle = world_.obstacles[static_cast<std::size_t>(pair.obstacle)];
   const PointPath path(segment_, body.offset);
-  return first_contact(obstacle.shape, {path, body.radius, pair.known_at, to, world_.locate}, pair.memory);
+  const double start_error = error_.segment<3>(body.offset).norm();
+  return first_contact(obstacle.shape, {path, body.radius, pair.known_at, to, world_.locate, start_error}, pair.memory);
 }
 
 void Motion::know_until(Pair& pair, double t) const {

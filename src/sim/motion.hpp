@@ -109,6 +109,8 @@ class Motion {
   /// Moves what is known of a pair on to time t on the current Segment; all contacts before it are handled.
   void know_until(Pair& pair, double t) const;
   void find_next();
+  /// Adds what the current Segment up to time t adds to the error of the state.
+  void collect_error(double t);
 
   const World& world_;
   int group_;
@@ -122,6 +124,8 @@ class Motion {
   std::vector<std::string> finished_warnings_;
   Segment<> segment_;
   Eigen::VectorXd end_state_;
+  Eigen::VectorXd
+      error_;  // estimated, of the state where the current Segment begins: those of all steps before it added up
   std::vector<Pair> pairs_;
   std::vector<Watch> watches_;
   std::vector<RestingContact> resting_;

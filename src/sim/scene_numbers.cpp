@@ -22,14 +22,15 @@ class ShapeMaker {
   ShapeMaker(const SceneNumbers& numbers, const std::string& of) : numbers_(numbers), of_(of) {}
 
   Shape operator()(const PlaneDefinition& plane) const {
-    return make_plane(vector(plane.point, "point"), vector(plane.normal, "normal"));
+    return make_plane(vector(plane.point, "point"), direction(plane.normal, "normal"));
   }
   Shape operator()(const DiskDefinition& disk) const {
-    return make_disk(vector(disk.center, "center"), vector(disk.normal, "normal"), positive(disk.radius, "radius"));
+    return make_disk(vector(disk.center, "center"), direction(disk.normal, "normal"), positive(disk.radius, "radius"));
   }
   Shape operator()(const RectangleDefinition& rectangle) const {
-    return make_rectangle(vector(rectangle.center, "center"), vector(rectangle.normal, "normal"), vector(rectangle.up, "up"),
-                          positive(rectangle.width, "size"), positive(rectangle.height, "size"));
+    return make_rectangle(vector(rectangle.center, "center"), direction(rectangle.normal, "normal"),
+                          direction(rectangle.up, "up"), positive(rectangle.width, "size"),
+                          positive(rectangle.height, "size"));
   }
   Shape operator()(const TriangleDefinition& triangle) const {
     return make_triangle(vector(triangle.a, "corner"), vector(triangle.b, "corner"), vector(triangle.c, "corner"));
@@ -44,6 +45,11 @@ class ShapeMaker {
 
  private:
   Vector3 vector(const Expression& value, const char* key) const { return numbers_.vector(value, key + of_); }
+  Vector3 direction(const Expression& value, const char* key) const {
+    const Vector3 numbers = vector(value, key);
+    if (numbers.isZero(0.0)) throw InputError(value.where(), key + of_ + " must not be zero");
+    return numbers;
+  }
   double positive(const Expression& value, const char* key) const { return numbers_.positive(value, key + of_); }
 
   const SceneNumbers& numbers_;

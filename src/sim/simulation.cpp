@@ -135,7 +135,9 @@ void Simulation::handle_event(int index, const Incident& incident) {
       const Eigen::VectorXd before = q;
       for (std::size_t i = 0; i < event.targets.size(); ++i) q[event.targets[i]] = values[static_cast<Eigen::Index>(i)];
       moving.take_event(incident.index);
+      const std::vector<Released> released = release_after_set(moving, incident.time, before, q);
       moving.restart(incident.time, q);
+      for (const Released& each : released) moving.rebound(each.pair, each.memory);
       for (const int body : moving.group().bodies) {
         const int offset = world_.bodies[static_cast<std::size_t>(body)].offset;
         if (q.segment<3>(offset) != before.segment<3>(offset)) moving.forget_contacts(body);

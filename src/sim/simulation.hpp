@@ -48,6 +48,8 @@ class Simulation {
   /// Ends the rests that would have to pull at the body.
   void release_by_force(Motion& motion, const World::Body& body, double t, const Eigen::VectorXd& q,
                         std::vector<Released>& released);
+  /// Ends the rests that an event's `set`, from state `before` to `q`, has broken.
+  std::vector<Released> release_after_set(Motion& motion, double t, const Eigen::VectorXd& before, Eigen::VectorXd& q);
   Released release(Motion& motion, int resting, double t, const Eigen::VectorXd& q);
   /// Where a body slides off a face and another one goes on from there without a step, its rest on that one begins.
   std::optional<Released> rest_on_continuation(Motion& motion, const RestingContact& contact, double t,

@@ -123,6 +123,28 @@ void Simulation::release_by_force(Motion& moving, const World::Body& body, doubl
   }
 }
 
+std::vector<Simulation::Released> Simulation::release_after_set(Motion& moving, double t, const Eigen::VectorXd& before,
+                                                                Eigen::VectorXd& q) {
+  std::vector<Released> released;
+  for (const int index : moving.group().bodies) {
+    const World::Body& body = world_.bodies[static_cast<std::size_t>(index)];
+    const auto is_of_body = [&](const RestingContact& contact) { return contact.offset == body.offset; };
+    if (std::ranges::none_of(moving.resting(), is_of_body)) continue;
+    if (q.segment<3>(body.offset) == before.segment<3>(body.offset)) {
+      const std::vector<Released> by_speed = release_by_speed(moving, body, t, q);
+      released.insert(released.end(), by_speed.begin(), by_speed.end());
+      release_by_force(moving, body, t, q, released);
+      continue;
+    }
+    for (auto contact = std::ranges::find_if(moving.resting(), is_of_body); contact != moving.resting().end();
+         contact = std::ranges::find_if(moving.resting(), is_of_body)) {
+      record_leave(moving, *contact, t, before);
+      moving.end_rest(static_cast<int>(contact - moving.resting().begin()));
+    }
+  }
+  return released;
+}
+
 Simulation::Released Simulation::release(Motion& moving, int resting, double t, const Eigen::VectorXd& q) {
   const RestingContact contact = moving.resting()[static_cast<std::size_t>(resting)];
   const Motion::Pair& pair = moving.pair(contact.pair);

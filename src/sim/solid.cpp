@@ -120,6 +120,10 @@ Solid make_solid(const BodyDefinition& definition, const SceneNumbers& numbers) 
   }
 }
 
+bool has_inertia(const BodyDefinition& definition) {
+  return definition.principal_inertia || !definition.inertia.empty();
+}
+
 Matrix3 given_inertia(const BodyDefinition& definition, const SceneNumbers& numbers) {
   const std::string what = "inertia" + of_body(definition);
   const Expression& first = definition.principal_inertia ? *definition.principal_inertia : definition.inertia[0];
@@ -143,7 +147,7 @@ Matrix3 given_inertia(const BodyDefinition& definition, const SceneNumbers& numb
 
 /// The inertia about the centre of mass, where there is one.
 std::optional<Matrix3> inertia(const BodyDefinition& definition, const Solid& solid, const SceneNumbers& numbers) {
-  if (definition.principal_inertia || !definition.inertia.empty()) return given_inertia(definition, numbers);
+  if (has_inertia(definition)) return given_inertia(definition, numbers);
   if (!solid.properties) return std::nullopt;
   if (definition.density)
     return numbers.positive(*definition.density, "density" + of_body(definition)) * solid.properties->inertia;
@@ -204,6 +208,7 @@ std::optional<World::Rotation> rotation(const BodyDefinition& d, const Solid& so
 
 World::Body make_body(const BodyDefinition& definition, const SceneNumbers& numbers, const MethodOptions& method) {
   require_no_conflict(definition);
+  if (has_inertia(definition)) given_inertia(definition, numbers);  // an error where it is none, even if nothing turns
   Solid solid = make_solid(definition, numbers);
   World::Body body;
   body.name = definition.name;

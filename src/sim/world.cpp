@@ -11,12 +11,14 @@
 #include "scene_numbers.hpp"
 #include "scene_symbols.hpp"
 #include "solid.hpp"
+#include "trajet/law/evaluate.hpp"
 #include "trajet/law/program_builder.hpp"
 
 namespace trajet {
 namespace {
 
 constexpr double kDefaultSampleCount = 200.0;
+constexpr double kMostSamples = 1e12;  // no disk holds more
 
 /// Builds a World from a Scene: numbers first, then who depends on whom, then one program per group.
 class WorldBuilder {
@@ -41,6 +43,7 @@ class WorldBuilder {
     find_dependencies();
     place_in_groups();
     for (std::size_t g = 0; g < world_.groups.size(); ++g) compile_group(static_cast<int>(g));
+    check_masses();
     check_that_method_suits(scene_, world_);
     for (const NamedExpression& closed_form : scene_.exact) compile_exact(closed_form);
     for (const ExactOrientation& closed_form : scene_.exact_orientations) compile_exact_orientation(closed_form);
@@ -78,6 +81,8 @@ class WorldBuilder {
       throw InputError(time.end->where(), "the end is before the start: impacts have no meaning backward in time");
     world_.sample = time.sample ? numbers_.positive(*time.sample, "sample spacing")
                                 : (duration > 0.0 ? duration / kDefaultSampleCount : 1.0);
+    if (duration / world_.sample > kMostSamples)
+      throw InputError(time.sample->where(), "sample spacing gives more than 1e12 samples");
   }
 
   /// Joins `member` with all bodies and states that a formula of its own names.
@@ -232,6 +237,19 @@ class WorldBuilder {
     const Symbols symbols = group_symbols(body.group, mass);
     mass.add_output(mass_of(definition, own_symbols(symbols, body, mass), mass));
     body.mass = mass.build();
+  }
+
+  /// At the start: what becomes of a mass that changes shows on the way.
+  void check_masses() const {
+    for (std::size_t i = 0; i < world_.bodies.size(); ++i) {
+      const World::Body& body = world_.bodies[i];
+      if (!scene_.bodies[i].mass) continue;
+      double mass = 0.0;
+      Evaluator<double> (*body.mass)(world_.start, world_.groups[static_cast<std::size_t>(body.group)].start.data(),
+                                     &mass);
+      if (!(mass > 0.0))
+        throw InputError(scene_.bodies[i].mass->where(), "mass of body '" + body.name + "' must be positive");
+    }
   }
 
   void compile_event(int index, int input_count) {

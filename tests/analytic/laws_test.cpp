@@ -194,5 +194,36 @@ TEST(Laws, BackwardInTime) {
   }
 }
 
+TEST(Laws, TheErrorBoundOfAnImpactHoldsAllSteps) {
+  // v' = -g - k v from rest at h: z = h - g t/k + g/k^2 (1 - exp(-k t))
+  const double g = 9.8, k = 0.5, h = 2.0;
+  double t = std::sqrt(2.0 * h / g);
+  for (int i = 0; i < 10; ++i)
+    t -= (h - g * t / k - g / (k * k) * std::expm1(-k * t)) / (-g / k + g / k * std::exp(-k * t));
+  // and no bound is larger than a method of that order and step gives reason for
+  const ErrorOf ways[] = {{test::fixed("euler", 0.05), 0.1},        {test::fixed("midpoint", 0.05), 1e-3},
+                          {test::fixed("heun", 0.05), 1e-3},        {test::fixed("rk4", 0.05), 1e-6},
+                          {test::controlled("bs32", 1e-6), 1e-4},   {test::controlled("dopri5", 1e-6), 1e-5},
+                          {test::controlled("taylor", 1e-6), 1e-6}, {test::controlled("taylor", 1e-13), 1e-13}};
+  for (const ErrorOf& way : ways) {
+    SCOPED_TRACE(way.name);
+    const RunResult result = run_text("[time]\nend = 2\n[method]\n" + way.lines + R"(
+[[body]]
+name = "ball"
+position = [0, 0, 2]
+acceleration = "[0, 0, -9.8] - 0.5*v"
+[[obstacle]]
+name = "ground"
+shape = "plane"
+point = [0, 0, 0]
+normal = [0, 0, 1]
+)");
+    ASSERT_EQ(result.impacts.size(), 1u);
+    const double error = std::abs(result.impacts[0].time - t);
+    EXPECT_LE(error, result.impacts[0].time_error_bound);
+    EXPECT_LE(result.impacts[0].time_error_bound, way.error);
+  }
+}
+
 }  // namespace
 }  // namespace trajet

@@ -178,6 +178,7 @@ TEST(ExitCodes, TellWhatWasWrong) {
       {{"run", kRifleShot, "--method", "rk44"}, 2, "did you mean"},
       {{"run", wrong}, 3, wrong + ":2:10: error: time [s] expected, got length [m]"},
       {{"check", wrong}, 3, ":2:10: error:"},
+      {{"run", kRifleShot, "--fps", "0"}, 2, "a positive number expected, got '0'"},
       {{"run", folder.file("none.toml")}, 5, "none.toml"},
       {{"run", kRifleShot, "--json", folder.file("no/folder.json")}, 5, "cannot write"},
       {{"run", kRifleShot, "--csv", "/dev/full"}, 5, "cannot write"},

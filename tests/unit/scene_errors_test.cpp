@@ -4,6 +4,7 @@
 
 #include "trajet/io/scene_file.hpp"
 #include "trajet/io/scene_overrides.hpp"
+#include "trajet/sim/world.hpp"
 
 namespace trajet {
 namespace {
@@ -137,6 +138,34 @@ TEST(SceneErrors, PointAtTheFaultAndSayWhatWasExpected) {
     EXPECT_TRUE(message.starts_with("s.toml:" + std::string(bad.place))) << message << "\n  for:\n" << bad.text;
     EXPECT_NE(message.find(": error: "), std::string::npos) << message;
     EXPECT_NE(message.find(bad.words), std::string::npos) << message << "\n  for:\n" << bad.text;
+  }
+}
+
+// Wrong numbers of scenes that are well formed. A text without [time] as above.
+const BadScene kBadNumbers[] = {
+    {"[[body]]\nname = \"b\"\nforce = [0,0,1]\nmass = \"1 - 1\"", "6:9", "mass of body 'b' must be positive"},
+    {"[[body]]\nname = \"b\"\nforce = [0,0,1]\nmass = -1", "6:8", "mass of body 'b' must be positive"},
+    {"[[body]]\nname = \"b\"\nforce = [0,0,1]\nmass = \"m\"\n[[state]]\nname = \"m\"\nvalue = -1\nrate = 1", "6:9",
+     "mass of body 'b' must be positive"},
+    {"[[body]]\nname = \"b\"\ninertia = [1, 2, -1]", "5:12", "inertia of body 'b' belongs to no body"},
+    {"[[body]]\nname = \"b\"\ninertia = [[1,1,0],[0,1,0],[0,0,1]]", "5:13", "not symmetric"},
+    {"[time]\nend = 1\nsample = 1e-13\n[[body]]\nname = \"b\"", "3:10", "more than 1e12 samples"},
+    {"[[body]]\nname = \"b\"\n[[obstacle]]\nname = \"o\"\nshape = \"plane\"\npoint = [0,0,0]\nnormal = [0,0,0]", "9:11",
+     "normal of obstacle 'o' must not be zero"},
+};
+
+TEST(SceneErrors, NumbersPointAtTheFaultToo) {
+  for (const BadScene& bad : kBadNumbers) {
+    const std::string text = bad.text;
+    const Scene scene = parse_scene((text.starts_with("[time]") ? "" : "[time]\nend = 1\n") + text, "s.toml");
+    try {
+      make_world(scene);
+      ADD_FAILURE() << "no error for:\n" << bad.text;
+    } catch (const InputError& error) {
+      const std::string message = error.what();
+      EXPECT_TRUE(message.starts_with("s.toml:" + std::string(bad.place) + ": error: ")) << message << bad.text;
+      EXPECT_NE(message.find(bad.words), std::string::npos) << message << "\n  for:\n" << bad.text;
+    }
   }
 }
 

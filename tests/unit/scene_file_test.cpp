@@ -148,5 +148,15 @@ TEST(SceneFile, WhatCannotBeReadIsAFileError) {
   EXPECT_THROW(read_scene("/"), FileError);
 }
 
+TEST(SceneFile, AChargeAndARadiusMayBeCalledSo) {
+  // q and R alone mean nothing in laws: only their parts qw, Rxx, ... do
+  const Scene scene = parse_scene(
+      "[time]\nend = 1\n[parameters]\nR = 2\n[[state]]\nname = \"q\"\nvalue = 1\nrate = 0\n"
+      "[[body]]\nname = \"b\"\nacceleration = \"q*cross(v, [0, 0, R]) + [Rxx, qw, 0]\"\n",
+      "s.toml");
+  EXPECT_EQ(scene.parameters[0].name, "R");
+  EXPECT_EQ(scene.states[0].name, "q");
+}
+
 }  // namespace
 }  // namespace trajet

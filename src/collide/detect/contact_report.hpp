@@ -86,7 +86,7 @@ ContactResult report(const F& gap, const GapContact& contact, const MovingBall& 
 
   // dt = dx / |gap rate| at a crossing, dx = |gap''| dt^2 / 2 at a graze
   const FunctionSample sample = gap.at(contact.tau);
-  const double position_error = path.error_bound().norm();
+  const double position_error = ball.start_error + path.error_bound().norm();
   const double by_rate = position_error / std::abs(sample.jet.rate);
   const double by_curvature = std::sqrt(2.0 * position_error / std::abs(sample.jet.curvature));
   const double error = position_error > 0.0 ? std::min(by_rate, by_curvature) : 0.0;

@@ -16,6 +16,7 @@ struct MovingBall {
   double from;    ///< s; both within the Segment
   double to;      ///< s; less than `from` where the integration runs backward
   Locator locator = Locator::polynomial;
+  double start_error = 0.0;  ///< m: estimated error of the position where the Segment begins
 };
 
 /// The table of pairs: the first contact of a ball with each shape. A new shape needs a line here: without it,
