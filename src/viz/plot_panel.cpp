@@ -30,13 +30,6 @@ std::string place(const Frame& frame) {
       frame.left, frame.right, frame.bottom, frame.top);
 }
 
-std::string place_3d(const Frame& frame) {
-  return fmt::format(
-      "set lmargin -1\nset rmargin -1\nset bmargin -1\nset tmargin -1\nset origin {:.4f},{:.4f}\nset size "
-      "{:.4f},{:.4f}\nset xyplane relative 0\nset view 62,28,1.2\n",
-      frame.left, frame.bottom, frame.right - frame.left, frame.top - frame.bottom);
-}
-
 std::string logarithmic_axis(const std::string& name, const Range& range) {
   return fmt::format("set {0}range [1e{1}:1e{2}]\nset {0}tics autofreq\n", name, std::floor(std::log10(range.low)),
                      std::max(std::ceil(std::log10(range.high)), std::floor(std::log10(range.low)) + 1.0));

@@ -25,8 +25,6 @@ struct Frame {
 
 /// The lines that place the next plot.
 std::string place(const Frame& frame);
-/// The same for a plot in three dimensions: it and its labels stay within.
-std::string place_3d(const Frame& frame);
 
 /// `set xrange [a:b]` for axis "x", and marks on the axis so far apart that about `count` fit.
 std::string axis(const std::string& name, const Range& range, int count);
