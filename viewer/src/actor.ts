@@ -114,7 +114,10 @@ export class Actor {
 
     const geometry = bodyGeometry(motion.data.shape, color, motion.turns);
     if (geometry) {
-      const material = new THREE.MeshLambertMaterial({ vertexColors: true, flatShading: motion.data.shape.kind !== "sphere" });
+      const material = new THREE.MeshLambertMaterial({
+        vertexColors: true,
+        flatShading: motion.data.shape.kind !== "sphere",
+      });
       this.body3d.add(new THREE.Mesh(geometry, material));
       if (motion.data.shape.kind !== "sphere")
         this.body3d.add(
@@ -130,7 +133,11 @@ export class Actor {
     this.velocity = arrow(kQuantityColors.velocity);
     this.acceleration = arrow(kQuantityColors.acceleration);
     this.axes = new THREE.Group();
-    const directions: Vector[] = [[0, 0, -Math.PI / 2], [0, 0, 0], [Math.PI / 2, 0, 0]];
+    const directions: Vector[] = [
+      [0, 0, -Math.PI / 2],
+      [0, 0, 0],
+      [Math.PI / 2, 0, 0],
+    ];
     directions.forEach((turn, i) => {
       const axis = arrow(kComponentColors[i]);
       axis.rotation.set(...turn);
@@ -147,7 +154,16 @@ export class Actor {
       new THREE.LineBasicMaterial({ color, transparent: true, opacity: 0.35 }),
     );
     for (const line of [this.way, this.tip, this.wholeWay]) line.frustumCulled = false;
-    this.group.add(this.body3d, this.dot, this.velocity, this.acceleration, this.axes, this.way, this.tip, this.wholeWay);
+    this.group.add(
+      this.body3d,
+      this.dot,
+      this.velocity,
+      this.acceleration,
+      this.axes,
+      this.way,
+      this.tip,
+      this.wholeWay,
+    );
   }
 
   /** Named points as dots, and, of a body without a shape, rods to them from the centre of mass. */
@@ -195,7 +211,8 @@ export class Actor {
     this.axes.visible = shown.axes && motion.turns;
     this.axes.position.copy(local);
     this.axes.quaternion.copy(turn);
-    for (const axis of this.axes.children) stretch(axis, Math.max(1.4 * this.reach, kAxisPixels * size), 2 * kAxisPixels * size);
+    for (const axis of this.axes.children)
+      stretch(axis, Math.max(1.4 * this.reach, kAxisPixels * size), 2 * kAxisPixels * size);
 
     this.showWay(t, local, shown.trails);
   }

@@ -26,9 +26,10 @@ export function tickTexts(ticks: readonly number[]): string[] {
 }
 
 /** px; room for such texts, the same in all plots that need no more. */
-export const textRoom = (texts: readonly string[]): number => Math.max(60, ...texts.map((text) => 10 + 6.3 * text.length));
+export const textRoom = (texts: readonly string[]): number =>
+  Math.max(60, ...texts.map((text) => 10 + 6.3 * text.length));
 
-/** The range of an axis: a constant is a line in the middle, and no rounding is blown up; `least`: what is not more is. */
+/** The range of an axis: a constant is a line in the middle, and no rounding, what is below `least`, is blown up. */
 export function readableRange(low: number | null, high: number | null, least = 0): [number, number] {
   if (low === null || high === null || !Number.isFinite(low) || !Number.isFinite(high)) return [-1, 1];
   const size = Math.max(Math.abs(low), Math.abs(high));

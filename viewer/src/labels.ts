@@ -42,7 +42,13 @@ export const overlap = (a: Area, b: Area): boolean =>
   a.left < b.right + kGap && b.left < a.right + kGap && a.top < b.bottom + kGap && b.top < a.bottom + kGap;
 
 /** The places around a point at which its text may stand in a picture of that width, best first. */
-export function candidates(x: number, y: number, width: number, height: number, pictureWidth: number): Record<Side, Area> {
+export function candidates(
+  x: number,
+  y: number,
+  width: number,
+  height: number,
+  pictureWidth: number,
+): Record<Side, Area> {
   const at = (left: number, top: number): Area => ({ left, top, right: left + width, bottom: top + height });
   const centered = Math.min(Math.max(0, x - width / 2), pictureWidth - width);
   return {

@@ -183,7 +183,7 @@ export class Run {
   }
 }
 
-/** The runs of a page, named after what they differ in: the method, the way in which orientations are carried, or both. */
+/** The runs of a page, named after what they differ in: the method, the way of carrying orientations, or both. */
 export function namedRuns(data: readonly RunData[]): Run[] {
   const runs = data.map((each) => new Run(each));
   const count = (of: (each: RunData) => string | null): number => new Set(data.map(of)).size;

@@ -77,8 +77,7 @@ export class Plots {
 
   resize(): void {
     const width = this.container.clientWidth;
-    for (const { plot } of this.plots)
-      if (width > 0 && plot.width !== width) plot.setSize({ width, height: kHeight });
+    for (const { plot } of this.plots) if (width > 0 && plot.width !== width) plot.setSize({ width, height: kHeight });
   }
 
   setTime(t: number): void {
@@ -159,7 +158,10 @@ export class Plots {
       legend: { show: false },
       padding: [6, 24, 0, 0],
       pxAlign: false,
-      scales: { x: { time: false, min: this.from, max: this.to }, y: { range: (_plot, low, high) => readableRange(low, high, quantity.least) } },
+      scales: {
+        x: { time: false, min: this.from, max: this.to },
+        y: { range: (_plot, low, high) => readableRange(low, high, quantity.least) },
+      },
       axes: [
         {
           ...axis,
@@ -224,9 +226,11 @@ function caption(quantity: Quantity): HTMLElement {
     element.append(item);
   };
   // colours tell the components, dashes the runs; a single quantity has the colours of the runs
-  for (const { label, color } of quantity.curves.filter(({ run, label }) => run === 0 && label)) key(label, color, undefined);
+  for (const { label, color } of quantity.curves.filter(({ run, label }) => run === 0 && label))
+    key(label, color, undefined);
   const runs = new Map(quantity.curves.map((curve) => [curve.run, curve]));
   if (runs.size > 1)
-    for (const [run, { method, label, color }] of runs) key(method, label ? cssColor("--text-soft") : color, dashOf(run));
+    for (const [run, { method, label, color }] of runs)
+      key(method, label ? cssColor("--text-soft") : color, dashOf(run));
   return element;
 }

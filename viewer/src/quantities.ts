@@ -69,7 +69,9 @@ function energyOf(own: readonly Own[], scalarColor: (run: number) => string): Qu
   const isWhole = field !== null && (!rotation || (rotation.inertia !== null && rotation.free));
   const unit = mass === null ? "J/kg" : "J";
   const rotationEnergy: Value = (b, t, p) => b.rotationEnergy(t, p);
-  const parts: { label: string; color: string; of: Value }[] = [{ ...kTranslation, of: (b, t, p) => b.translationEnergy(t, p) }];
+  const parts: { label: string; color: string; of: Value }[] = [
+    { ...kTranslation, of: (b, t, p) => b.translationEnergy(t, p) },
+  ];
   if (rotation?.inertia && mass !== null) parts.push({ ...kRotation, of: rotationEnergy });
   if (isWhole) parts.push({ ...kPotential, of: (b, t, p) => b.potentialEnergy(t, p) });
   const title = isWhole ? "energy" : "kinetic energy";
@@ -79,13 +81,21 @@ function energyOf(own: readonly Own[], scalarColor: (run: number) => string): Qu
   if (present.length > 1) {
     const sum: Value = (b, t, p) => present.reduce((total, { of }) => total + of(b, t, p), 0);
     const curves = present.flatMap(({ label, color, of }) => curvesOf(own, label, () => color, of));
-    quantities.push({ title, unit, curves: [...curves, ...curvesOf(own, isWhole ? "total" : "sum", () => kTotalColor, sum)] });
+    quantities.push({
+      title,
+      unit,
+      curves: [...curves, ...curvesOf(own, isWhole ? "total" : "sum", () => kTotalColor, sum)],
+    });
   } else {
     const only = present[0] ?? parts[0];
     quantities.push({ title: `${title} (${only.label})`, unit, curves: curvesOf(own, "", scalarColor, only.of) });
   }
   if (rotation?.inertia && mass === null)
-    quantities.push({ title: "kinetic energy (rotation)", unit: "J", curves: curvesOf(own, "", scalarColor, rotationEnergy) });
+    quantities.push({
+      title: "kinetic energy (rotation)",
+      unit: "J",
+      curves: curvesOf(own, "", scalarColor, rotationEnergy),
+    });
   return quantities;
 }
 
@@ -97,23 +107,41 @@ export function quantitiesOf(runs: readonly Run[], bodyName: string | null): Qua
     return body ? [{ body, run: index, method: run.name }] : [];
   });
   const scalarColor = (run: number): string => (runs.length > 1 ? colorOf(runs.length, run, 0) : kPalette[5]);
-  const components = (title: string, unit: string, color: string | undefined, of: (b: BodyMotion, t: number, p: number) => number[]) =>
+  const components = (
+    title: string,
+    unit: string,
+    color: string | undefined,
+    of: (b: BodyMotion, t: number, p: number) => number[],
+  ) =>
     quantities.push({
       title,
       unit,
       color,
-      curves: ["x", "y", "z"].flatMap((axis, i) => curvesOf(own, axis, () => kComponentColors[i], (b, t, p) => of(b, t, p)[i])),
+      curves: ["x", "y", "z"].flatMap((axis, i) =>
+        curvesOf(
+          own,
+          axis,
+          () => kComponentColors[i],
+          (b, t, p) => of(b, t, p)[i],
+        ),
+      ),
     });
   if (own.length > 0) {
     const { rotation } = own[0].body.data;
     components("position", "m", kQuantityColors.position, (b, t, p) => b.position(t, p));
     components("velocity", "m/s", kQuantityColors.velocity, (b, t, p) => b.velocity(t, p));
     components("acceleration", "m/s²", kQuantityColors.acceleration, (b, t, p) => b.acceleration(t, p));
-    quantities.push({ title: "speed", unit: "m/s", curves: curvesOf(own, "", scalarColor, (b, t, p) => length(b.velocity(t, p))) });
+    quantities.push({
+      title: "speed",
+      unit: "m/s",
+      curves: curvesOf(own, "", scalarColor, (b, t, p) => length(b.velocity(t, p))),
+    });
     quantities.push(...energyOf(own, scalarColor));
     if (rotation) {
       components("angular velocity", "rad/s", undefined, (b, t, p) => b.angularVelocity(t, p));
-      const title = [...new Set(own.map(({ body }) => (body.data.rotation?.kind === "matrix" ? "det R − 1" : "|q| − 1")))].join(", ");
+      const title = [
+        ...new Set(own.map(({ body }) => (body.data.rotation?.kind === "matrix" ? "det R − 1" : "|q| − 1"))),
+      ].join(", ");
       const curves = curvesOf(own, "", scalarColor, (b, t, p) => b.orientationDefect(t, p));
       quantities.push({ title, unit: "", least: kRounding, curves });
     }

@@ -12,12 +12,12 @@ export interface Trail {
 
 /** More straight lines for one piece tell the eye nothing. */
 const kMostLinesOfPiece = 256;
-/** Fewer for the whole run are so long that a camera close to the body stands between their ends, and draws them badly. */
+/** Fewer for the whole run are so long that a camera near the body stands between their ends, and draws them badly. */
 const kFewestLines = 256;
 
 /**
- * The way of a body as straight lines, passed at constant speed each, that stay within about twice `tolerance` (m) of it
- * at all times.
+ * The way of a body as straight lines, passed at constant speed each, that stay within about twice `tolerance` (m) of
+ * it at all times.
  *
  * A chord over the time h leaves a curve of acceleration a by a h^2 / 8 at most. Pieces that are short beside the
  * tolerance are passed over; of the many points of a motion in short steps only those are kept that a line would miss.
@@ -58,10 +58,15 @@ function thinned({ times, points }: Trail, tolerance: number): Trail {
     for (let i = first + 1; i < last; ++i) {
       const part = duration > 0 ? (times[i] - times[first]) / duration : 0;
       const [x, y, z] = points[i];
-      const off = Math.hypot(x - a[0] - part * (b[0] - a[0]), y - a[1] - part * (b[1] - a[1]), z - a[2] - part * (b[2] - a[2]));
+      const off = Math.hypot(
+        x - a[0] - part * (b[0] - a[0]),
+        y - a[1] - part * (b[1] - a[1]),
+        z - a[2] - part * (b[2] - a[2]),
+      );
       if (off > largest) [farthest, largest] = [i, off];
     }
-    if (farthest === first && (last - first < 2 || kFewestLines * duration < times[times.length - 1] - times[0])) continue;
+    if (farthest === first && (last - first < 2 || kFewestLines * duration < times[times.length - 1] - times[0]))
+      continue;
     if (farthest === first) farthest = (first + last) >> 1;
     isKept[farthest] = 1;
     open.push([first, farthest], [farthest, last]);
@@ -84,8 +89,7 @@ export function jumps(track: Track, piece: number, first: number, count: number)
 /** The pieces behind which some component of a track jumps: impacts and events that set something. */
 export function jumpsOf(track: Track): number[] {
   const pieces: number[] = [];
-  for (let piece = 0; piece + 1 < track.count; ++piece)
-    if (jumps(track, piece, 0, track.dimension)) pieces.push(piece);
+  for (let piece = 0; piece + 1 < track.count; ++piece) if (jumps(track, piece, 0, track.dimension)) pieces.push(piece);
   return pieces;
 }
 

@@ -14,7 +14,7 @@ import { isSeenAlongX, kViewSize, sceneBox, ViewFrame } from "./view_frame";
 const kMostImpactLabels = 60;
 /** A ghost is seen through. */
 const kGhostOpacity = 0.45;
-/** From one body to the next where they stand side by side, in the reach of the largest; and how far a point reaches. */
+/** From one body to the next where they stand side by side, in the reach of the largest; how far a point reaches. */
 const kBodySpacing = 2.4;
 const kPointReach = 0.002 * kViewSize;
 const kFieldOfViewDegrees = 35;
@@ -78,7 +78,7 @@ export class Stage {
     this.applyTheme();
     this.resize();
     this.showAll();
-    // All programs of the graphics processor begin to be made here, while the rest of the page is; a frame waits for each.
+    // All programs of the graphics processor begin to be made here, beside the rest of the page; a frame waits for each.
     this.renderer.compile(this.scene, this.camera);
   }
 
@@ -115,7 +115,8 @@ export class Stage {
     if (!this.isSideBySide) return new THREE.Vector3();
     const alongX = new THREE.Vector3(1, 0, 0);
     const alongY = new THREE.Vector3(0, 1, 0);
-    if (this.followed) return (isSeenAlongX(this.frame.box) ? alongY : alongX).multiplyScalar(kBodySpacing * this.followedReach);
+    if (this.followed)
+      return (isSeenAlongX(this.frame.box) ? alongY : alongX).multiplyScalar(kBodySpacing * this.followedReach);
     const size = this.frame.box.getSize(new THREE.Vector3());
     const step = 1.15 * Math.min(size.x, size.y) + 0.1 * Math.max(size.x, size.y, size.z);
     return (isSeenAlongX(this.frame.box) ? alongX : alongY).multiplyScalar(step * this.frame.scale);
@@ -174,14 +175,19 @@ export class Stage {
     this.followed = null;
     this.arrange();
     const middle = this.spreadOfAll.multiplyScalar(0.5);
-    const half = this.frame.box.getSize(new THREE.Vector3()).multiplyScalar(0.5 * this.frame.scale).add(middle);
+    const half = this.frame.box
+      .getSize(new THREE.Vector3())
+      .multiplyScalar(0.5 * this.frame.scale)
+      .add(middle);
     const away = isSeenAlongX(this.frame.box) ? new THREE.Vector3(1, -0.35, 0.42) : new THREE.Vector3(-0.35, -1, 0.42);
     away.normalize();
     const side = this.camera.up.clone().cross(away).normalize();
     const up = away.clone().cross(side);
     const { horizontal, vertical } = this.halfAngles;
     const signs = [-1, 1];
-    const corners = signs.flatMap((x) => signs.flatMap((y) => signs.map((z) => new THREE.Vector3(x, y, z).multiply(half).add(middle))));
+    const corners = signs.flatMap((x) =>
+      signs.flatMap((y) => signs.map((z) => new THREE.Vector3(x, y, z).multiply(half).add(middle))),
+    );
     // A point at (x, y, z) of the view is inside where |x| <= (d - z) tan of the half angle.
     const distance = (points: THREE.Vector3[], target: THREE.Vector3): number =>
       kMargin *

@@ -5,19 +5,22 @@ const kDegreeBase = 256;
 
 /** The degree of a component, of those that are stored from `first` on. */
 const degreeOf = (numbers: Float64Array, first: number, component: number): number =>
-  Math.floor(numbers[first + Math.floor(component / kDegreesOfNumber)] / kDegreeBase ** (component % kDegreesOfNumber)) % kDegreeBase;
+  Math.floor(
+    numbers[first + Math.floor(component / kDegreesOfNumber)] / kDegreeBase ** (component % kDegreesOfNumber),
+  ) % kDegreeBase;
 
 /**
  * The motion of one group of bodies and states: pieces of polynomials in time, one after the other.
  *
- * A piece is stored as the numbers from, to, t0, the degrees of all components, six to a number as its digits to the base
- * 256, the first the least, and then the coefficients of each component, (t - t0)^0 first. It stands for the half-open interval [from, to); the last one for its end as well. Where a
- * body bounces, the values jump between two pieces.
+ * A piece is stored as the numbers from, to, t0, the degrees of all components, six to a number as its digits to the
+ * base 256, the first the least, and then the coefficients of each component, (t - t0)^0 first. It stands for the
+ * half-open interval [from, to); the last one for its end as well. Where a body bounces, the values jump between two
+ * pieces.
  */
 export class Track {
   private readonly begins: Float64Array;
   private readonly ends: Float64Array;
-  /** Where a piece begins in the numbers, and where the coefficients of each of its components do; how many these are. */
+  /** Where a piece begins in the numbers, where the coefficients of each of its components do, and their degrees. */
   private readonly places: Int32Array;
   private readonly coefficients: Int32Array;
   private readonly degrees: Uint8Array;
@@ -27,7 +30,7 @@ export class Track {
     readonly dimension: number,
   ) {
     const places: number[] = [];
-    for (let at = 0; at < numbers.length; ) {
+    for (let at = 0; at < numbers.length;) {
       places.push(at);
       const first = at + 3;
       at = first + Math.ceil(dimension / kDegreesOfNumber);

@@ -61,9 +61,15 @@ test("a page plays a run from the file system, without network", async () => {
   assert.equal(await page.evaluate(() => window.trajet.time), impact.time);
 
   const last = report.final[0];
-  const position = await page.evaluate(({ body, t }) => window.trajet.position(body, t), { body: last.body, t: report.end_time });
+  const position = await page.evaluate(({ body, t }) => window.trajet.position(body, t), {
+    body: last.body,
+    t: report.end_time,
+  });
   last.position.forEach((each, i) => assert.ok(Math.abs(each - position[i]) <= 1e-9, `${each} ${position[i]}`));
-  const atImpact = await page.evaluate(({ body, t }) => window.trajet.position(body, t), { body: impact.body, t: impact.time });
+  const atImpact = await page.evaluate(({ body, t }) => window.trajet.position(body, t), {
+    body: impact.body,
+    t: impact.time,
+  });
   impact.position.forEach((each, i) => assert.ok(Math.abs(each - atImpact[i]) <= 1e-9, `${each} ${atImpact[i]}`));
 
   await page.keyboard.press("Home");
@@ -134,7 +140,10 @@ test("the energy is the whole one where the law tells it, and what is zero takes
 test("ways of carrying an orientation stand side by side", async () => {
   const ways = ["exact", "quaternion", "quaternion-normalized"];
   const { file } = view("notes/soccer_ball", "--orientation", ways[0], "--orientations", ways.slice(1).join());
-  for (const [name, options] of Object.entries({ ball_light: {}, ball_phone: { viewport: { width: 390, height: 844 }, deviceScaleFactor: 2 } })) {
+  for (const [name, options] of Object.entries({
+    ball_light: {},
+    ball_phone: { viewport: { width: 390, height: 844 }, deviceScaleFactor: 2 },
+  })) {
     const { page, context, problems } = await open(pathToFileURL(file).href, options);
     assert.ok(await page.getByLabel("Side by side").evaluate((each) => each.checked));
     await page.evaluate(() => window.trajet.seek(9.5));
@@ -156,7 +165,9 @@ test("ways of carrying an orientation stand side by side", async () => {
 
 test("ways of carrying an orientation ask for a body that turns", () => {
   const scene = join(examples, "notes/rifle_shot.toml");
-  const { status, stderr } = spawnSync(program, ["view", scene, "--no-open", "--orientations", "exact"], { encoding: "utf8" });
+  const { status, stderr } = spawnSync(program, ["view", scene, "--no-open", "--orientations", "exact"], {
+    encoding: "utf8",
+  });
   assert.equal(status, 2);
   assert.match(stderr, /--orientations: error: no body of the scene turns/);
 });

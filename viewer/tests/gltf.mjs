@@ -1,5 +1,5 @@
-// Every example as glTF passes the validator of Khronos without error or warning, and its keys are the poses of the report:
-// node gltf.mjs PROGRAM EXAMPLES FOLDER
+// Every example as glTF passes the validator of Khronos without error or warning, and its keys are the poses of the
+// report: node gltf.mjs PROGRAM EXAMPLES FOLDER
 
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
@@ -34,7 +34,9 @@ function read(file) {
   };
   /** Times and values of a body's keys; null where it has none. */
   const keys = (body, path) => {
-    const channel = animations[0]?.channels.find(({ target }) => nodes[target.node].name === body && target.path === path);
+    const channel = animations[0]?.channels.find(
+      ({ target }) => nodes[target.node].name === body && target.path === path,
+    );
     if (!channel) return null;
     const { input, output } = animations[0].samplers[channel.sampler];
     return { times: floats(input).flat(), values: floats(output) };

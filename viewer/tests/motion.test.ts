@@ -87,7 +87,12 @@ describe("an orientation", () => {
   };
 
   it("is read off a matrix, whichever component of the quaternion is largest", () => {
-    const tests = [[0.9, 0.1, -0.3, 0.2], [0.1, 0.9, 0.3, -0.2], [-0.1, 0.2, 0.9, 0.3], [0.2, -0.3, 0.1, 0.9]];
+    const tests = [
+      [0.9, 0.1, -0.3, 0.2],
+      [0.1, 0.9, 0.3, -0.2],
+      [-0.1, 0.2, 0.9, 0.3],
+      [0.2, -0.3, 0.1, 0.9],
+    ];
     for (const test of tests) {
       const norm = Math.hypot(...test);
       const q = test.map((each) => each / norm);
@@ -115,7 +120,10 @@ describe("an orientation", () => {
     const state = [0, 0, 0, 0, 0, 0, ...start, 0, 0.2, 0, 1, 2, 3];
     const track = new Track(Float64Array.from(constant(state)), state.length);
     for (const frame of ["world", "body"] as const) {
-      const motion = new BodyMotion(body({ rotation: rotation({ kind: "rotation-vector", frame, angular_velocity: 13 }) }), track);
+      const motion = new BodyMotion(
+        body({ rotation: rotation({ kind: "rotation-vector", frame, angular_velocity: 13 }) }),
+        track,
+      );
       const expected = frame === "world" ? product(added, start) : product(start, added);
       motion.orientation(0.5).forEach((each, i) => expect(each).toBeCloseTo(expected[i], 15));
       const w = frame === "world" ? [1, 2, 3] : rotated(expected, [1, 2, 3]);

@@ -22,7 +22,9 @@ describe("a track", () => {
   });
 
   it("keeps the components apart, more than six and of different degrees", () => {
-    const components = Array.from({ length: 13 }, (_, i) => Array.from({ length: 1 + ((5 * i) % 31) }, (_, k) => i + k / 32));
+    const components = Array.from({ length: 13 }, (_, i) =>
+      Array.from({ length: 1 + ((5 * i) % 31) }, (_, k) => i + k / 32),
+    );
     const track = new Track(numbers(piece(0, 1, 0, ...components), piece(1, 2, 1, ...[...components].reverse())), 13);
     components.forEach((coefficients, i) => {
       const sum = coefficients.reduceRight((value, each) => value * 0.5 + each, 0);
