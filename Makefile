@@ -50,7 +50,7 @@ tidy: setup ## build under clang-tidy
 	@$(CONFIGURE) tidy
 	@$(BUILD) tidy
 
-bench: setup ## build and run the benchmarks, beside Boost.odeint, GSL and SUNDIALS
+bench: setup ## build and run the benchmarks, beside Boost.odeint, GSL, SUNDIALS, Bullet and ODE
 	@scripts/setup bench
 	@$(CONFIGURE) release -DTRAJET_BUILD_BENCH=ON
 	@$(BUILD) release --target trajet_bench

@@ -7,10 +7,9 @@
 namespace trajet::bench {
 
 /// Who did the work of a case. The tables set the best of each beside the others.
-enum class Contender { law, scene, odeint, gsl, sundials };
-inline constexpr Contender kContenders[] = {Contender::law, Contender::scene, Contender::odeint, Contender::gsl,
-                                            Contender::sundials};
-inline constexpr int kFirstPeer = 2;  ///< the contenders before it are trajet's
+enum class Contender { law, scene, odeint, gsl, sundials, bullet, ode };
+inline constexpr Contender kContenders[] = {Contender::law,      Contender::scene,  Contender::odeint, Contender::gsl,
+                                            Contender::sundials, Contender::bullet, Contender::ode};
 
 /// An error that no run which came to its end has.
 inline constexpr double kFailed = 1e100;
@@ -52,8 +51,11 @@ void add_case(const Case& properties, Solve solve) {
 void add_laws();
 void add_scenes();
 void add_rifle_shot();
+void add_boxes();
 void add_odeint();
 void add_gsl();
 void add_sundials();
+void add_bullet();
+void add_ode();
 
 }  // namespace trajet::bench
