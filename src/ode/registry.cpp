@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "make_runge_kutta.hpp"
 #include "trajet/ode/cvode.hpp"
 #include "trajet/ode/difference.hpp"
 #include "trajet/ode/gauss.hpp"
@@ -11,54 +12,18 @@
 #include "trajet/ode/quadrature.hpp"
 #include "trajet/ode/rk4_doubling.hpp"
 #include "trajet/ode/rosenbrock.hpp"
-#include "trajet/ode/runge_kutta.hpp"
 #include "trajet/ode/series_steps.hpp"
 #include "trajet/ode/system_rate.hpp"
-#include "trajet/ode/tableau_dop853.hpp"
 #include "trajet/ode/taylor.hpp"
 #include "trajet/ode/tr_bdf2.hpp"
 #include "trajet/ode/trapezoid.hpp"
 #include "trajet/ode/velocity_verlet.hpp"
+#include "wrapped_stepper.hpp"
 
 namespace trajet {
 namespace {
 
-/// Any Stepper of run-time dimension behind the interface.
-template <Stepper S>
-class WrappedStepper final : public AnyStepper {
- public:
-  explicit WrappedStepper(S stepper) : stepper_(std::move(stepper)) {}
-
-  void start(double t, const State& q) override { stepper_.start(t, q); }
-  StepStatus advance(double t_limit) override { return stepper_.advance(t_limit); }
-  void fill_segment(Segment<>& segment) override { stepper_.fill_segment(segment); }
-  double time() const override { return stepper_.time(); }
-  const State& state() const override { return stepper_.state(); }
-  const StepStatistics& statistics() const override { return stepper_.statistics(); }
-  bool amend(const State& q) override {
-    if constexpr (requires { static_cast<bool>(stepper_.amend(q)); }) {
-      return stepper_.amend(q);
-    } else if constexpr (requires { stepper_.amend(q); }) {
-      stepper_.amend(q);
-      return true;
-    } else {
-      return false;
-    }
-  }
-  std::vector<std::string> warnings() const override {
-    if constexpr (requires { stepper_.warnings(); }) return stepper_.warnings();
-    return {};
-  }
-
- private:
-  S stepper_;
-};
-
-template <class Method>
-std::unique_ptr<AnyStepper> make_runge_kutta(System& system, const StepOptions& options) {
-  using S = RungeKutta<Method, SystemRate, Eigen::Dynamic>;
-  return std::make_unique<WrappedStepper<S>>(S(SystemRate(system), options));
-}
+using detail::WrappedStepper;
 
 template <class Method>
 std::unique_ptr<AnyStepper> make_implicit(System& system, const StepOptions& options) {
@@ -120,7 +85,7 @@ template <class Method>
 MethodInfo runge_kutta(std::string_view name, Aliases aliases, std::string_view known_as, std::string_view summary) {
   const StepControl control = Method::kErrorControlled ? StepControl::adaptive : StepControl::fixed;
   return {name,    std::move(aliases), Method::kOrder, Method::kDenseOrder,
-          control, known_as,           summary,        make_runge_kutta<Method>};
+          control, known_as,           summary,        detail::make_runge_kutta<Method>};
 }
 
 template <class Method>

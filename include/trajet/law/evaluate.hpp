@@ -56,135 +56,136 @@ template <class T>
 TRAJET_INLINE void execute(const Instruction& instruction, const Program& program, T* slots) {
   using std::abs, std::acos, std::asin, std::atan, std::atan2, std::cbrt, std::cos, std::cosh, std::exp, std::floor,
       std::log, std::pow, std::sin, std::sinh, std::sqrt, std::tan, std::tanh;
-  const T& a = slots[instruction.a];
-  const T& b = slots[instruction.b];
-  const T& c = slots[instruction.c];
-  T& result = slots[instruction.result];
+  // found only where the opcode needs them: on plain numbers, finding them is most of the work
+  const auto a = [&]() -> const T& { return slots[instruction.a]; };
+  const auto b = [&]() -> const T& { return slots[instruction.b]; };
+  const auto c = [&]() -> const T& { return slots[instruction.c]; };
+  const auto result = [&]() -> T& { return slots[instruction.result]; };
   switch (instruction.opcode) {
     case Opcode::add:
-      result = a + b;
+      result() = a() + b();
       break;
     case Opcode::add_constant:
-      result = a + T(instruction.constant);
+      result() = a() + T(instruction.constant);
       break;
     case Opcode::subtract:
-      result = a - b;
+      result() = a() - b();
       break;
     case Opcode::constant_minus:
-      result = T(instruction.constant) - a;
+      result() = T(instruction.constant) - a();
       break;
     case Opcode::multiply:
-      result = a * b;
+      result() = a() * b();
       break;
     case Opcode::multiply_constant:
-      result = T(instruction.constant) * a;
+      result() = T(instruction.constant) * a();
       break;
     case Opcode::divide:
-      result = a / b;
+      result() = a() / b();
       break;
     case Opcode::divide_constant:
-      result = a / T(instruction.constant);
+      result() = a() / T(instruction.constant);
       break;
     case Opcode::constant_over:
-      result = T(instruction.constant) / a;
+      result() = T(instruction.constant) / a();
       break;
     case Opcode::negate:
-      result = -a;
+      result() = -a();
       break;
     case Opcode::square:
-      result = squared(a);
+      result() = squared(a());
       break;
     case Opcode::power:
-      result = pow(a, b);
+      result() = pow(a(), b());
       break;
     case Opcode::power_constant:
-      result = raised(a, instruction.constant);
+      result() = raised(a(), instruction.constant);
       break;
     case Opcode::sqrt:
-      result = sqrt(a);
+      result() = sqrt(a());
       break;
     case Opcode::cbrt:
-      result = cbrt(a);
+      result() = cbrt(a());
       break;
     case Opcode::exp:
-      result = exp(a);
+      result() = exp(a());
       break;
     case Opcode::log:
-      result = log(a);
+      result() = log(a());
       break;
     case Opcode::log10:
-      result = decimal_logarithm(a);
+      result() = decimal_logarithm(a());
       break;
     case Opcode::sin:
-      result = sin(a);
+      result() = sin(a());
       break;
     case Opcode::cos:
-      result = cos(a);
+      result() = cos(a());
       break;
     case Opcode::sin_cos:
-      result = sin(a);
-      slots[instruction.b] = cos(a);
+      result() = sin(a());
+      slots[instruction.b] = cos(a());
       break;
     case Opcode::tan:
-      result = tan(a);
+      result() = tan(a());
       break;
     case Opcode::asin:
-      result = asin(a);
+      result() = asin(a());
       break;
     case Opcode::acos:
-      result = acos(a);
+      result() = acos(a());
       break;
     case Opcode::atan:
-      result = atan(a);
+      result() = atan(a());
       break;
     case Opcode::atan2:
-      result = atan2(a, b);
+      result() = atan2(a(), b());
       break;
     case Opcode::sinh:
-      result = sinh(a);
+      result() = sinh(a());
       break;
     case Opcode::cosh:
-      result = cosh(a);
+      result() = cosh(a());
       break;
     case Opcode::sinh_cosh:
-      result = sinh(a);
-      slots[instruction.b] = cosh(a);
+      result() = sinh(a());
+      slots[instruction.b] = cosh(a());
       break;
     case Opcode::tanh:
-      result = tanh(a);
+      result() = tanh(a());
       break;
     case Opcode::abs:
-      result = abs(a);
+      result() = abs(a());
       break;
     case Opcode::sign:
-      result = sign(a);
+      result() = sign(a());
       break;
     case Opcode::floor:
-      result = floor(a);
+      result() = floor(a());
       break;
     case Opcode::min:
-      result = min(a, b);
+      result() = min(a(), b());
       break;
     case Opcode::max:
-      result = max(a, b);
+      result() = max(a(), b());
       break;
     case Opcode::less:
-      result = truth<T>(less(a, b));
+      result() = truth<T>(less(a(), b()));
       break;
     case Opcode::less_equal:
-      result = truth<T>(less_equal(a, b));
+      result() = truth<T>(less_equal(a(), b()));
       break;
     case Opcode::equal:
-      result = truth<T>(equal(a, b));
+      result() = truth<T>(equal(a(), b()));
       break;
     case Opcode::where:
-      result = where(equal(a, T(0.0)), c, b);
+      result() = where(equal(a(), T(0.0)), c(), b());
       break;
     case Opcode::norm:
-      result = norm3(a, b, c);
+      result() = norm3(a(), b(), c());
       break;
     case Opcode::table:
-      result = (*program.tables[static_cast<std::size_t>(instruction.b)])(a);
+      result() = (*program.tables[static_cast<std::size_t>(instruction.b)])(a());
       break;
   }
 }
