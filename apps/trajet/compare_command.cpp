@@ -137,7 +137,7 @@ std::string rotation_table(const Comparison& comparison) {
 }
 
 std::string notes(const Comparison& comparison) {
-  std::string text = "\nerrors: largest absolute value over all components (m, m/s); position: m\n";
+  std::string text = "\nerrors: largest absolute value over all components, in SI units; position: m\n";
   bool is_cut = false;
   for (const ComparisonRow& row : comparison.rows)
     is_cut = is_cut || (row.succeeded() && row.compared_until != row.end_time);

@@ -30,6 +30,7 @@ ViewPage make_view_page(const ViewArguments& arguments, const PageOptions& optio
     runs.push_back({motion, report_json(result)});
     return result.status;
   };
+  for (const std::string& way : arguments.orientations) orientation_way(way, {"--orientations"});
   ViewPage page;
   page.status = add_run(scene);
   const auto add_variant = [&](const SceneOverrides& overrides) {

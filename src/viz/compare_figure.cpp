@@ -69,7 +69,7 @@ class CompareFigure {
   std::string subtitle() const {
     const std::string reference =
         comparison_.reference_name == "exact" ? "the closed form" : comparison_.reference_name;
-    return "reference (red): " + reference + "; error: maximum over the samples of all components (m, m/s)";
+    return "reference (red): " + reference + "; error: maximum over the samples of all components (SI units)";
   }
 
   /// Of the list of methods, as part of the figure's width.
