@@ -159,7 +159,7 @@ int main(int argc, char** argv) {
     const std::string& place = error.where().file;
     return place.starts_with("--") || place == "trajet" ? trajet::kWrongCommandLine : trajet::kWrongScene;
   } catch (const trajet::FileError& error) {
-    fmt::print(stderr, "error: {}\n", error.what());
+    fmt::print(stderr, "{}{}\n", error.has_place() ? "" : "error: ", error.what());
     return trajet::kFileFailed;
   } catch (const std::exception& error) {
     fmt::print(stderr, "error: the program failed: {}\n", error.what());

@@ -42,7 +42,17 @@ class InputError : public std::runtime_error {
 
 /// A file could not be read or written.
 class FileError : public std::runtime_error {
+ public:
   using std::runtime_error::runtime_error;
+  /// For a file that is named at `where`; `what()` as of an InputError.
+  FileError(const SourceLocation& where, const std::string& message)
+      : std::runtime_error(InputError(where, message).what()), has_place_(true) {}
+
+  /// Whether `what()` begins with the place where the file is named.
+  bool has_place() const { return has_place_; }
+
+ private:
+  bool has_place_ = false;
 };
 
 }  // namespace trajet

@@ -20,7 +20,7 @@ TriangleMesh read_mesh(const TableReader& table) {
   importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE, aiPrimitiveType_LINE | aiPrimitiveType_POINT);
   const aiScene* scene = importer.ReadFile(path.string(), aiProcess_Triangulate | aiProcess_JoinIdenticalVertices |
                                                               aiProcess_SortByPType | aiProcess_PreTransformVertices);
-  if (scene == nullptr) throw FileError(InputError(table.where("file"), importer.GetErrorString()).what());
+  if (scene == nullptr) throw FileError(table.where("file"), importer.GetErrorString());
   TriangleMesh mesh;
   for (unsigned m = 0; m < scene->mNumMeshes; ++m) {
     const aiMesh& part = *scene->mMeshes[m];

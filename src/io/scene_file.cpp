@@ -156,7 +156,8 @@ class SceneReader {
     if (table.has("steps")) method.steps = table.scalar_list("steps", kTime);
     if (method.step && !method.steps.empty()) table.fail("steps", "'step' or 'steps' expected, not both");
     constexpr long kMaxOrder = 1000;  // far beyond any use; keeps it an int
-    const long order = table.whole_number("order", 0, 0);
+    const long order = table.whole_number("order", 1, 0);
+    method.order_where = table.where("order");
     if (order > kMaxOrder) table.fail("order", "an order of at most " + std::to_string(kMaxOrder) + " expected");
     method.order = static_cast<int>(order);
     method.max_steps = table.whole_number("max_steps", 1, method.max_steps);

@@ -61,7 +61,10 @@ void apply(const SceneOverrides& overrides, Scene& scene) {
     scene.method.orientation_where = {"--orientation"};
     scene.method.orientation = orientation_way(*overrides.orientation, scene.method.orientation_where);
   }
-  if (overrides.order) scene.method.order = *overrides.order;
+  if (overrides.order) {
+    scene.method.order = *overrides.order;
+    scene.method.order_where = {"--order"};
+  }
   if (overrides.method) {
     scene.method.name = *overrides.method;
     scene.method.where = {"--method"};

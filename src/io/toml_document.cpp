@@ -8,6 +8,31 @@ namespace {
 
 bool continues_character(char c) { return (static_cast<unsigned char>(c) & 0xc0) == 0x80; }
 
+/// The length of the line end with which a text begins, 0 if it does not.
+std::size_t line_end_length(std::string_view text) {
+  return text.starts_with("\r\n") ? 2 : text.starts_with('\n') ? 1 : 0;
+}
+
+/// An escape sequence of a TOML string: its length, and the number of bytes of the content that it stands for.
+struct Escape {
+  std::size_t length;
+  std::size_t bytes;
+};
+
+/// The escape sequence with which `written` begins; `first` is the byte of the content that comes next.
+Escape escape_at(std::string_view written, char first) {
+  const char kind = written.size() > 1 ? written[1] : ' ';
+  if (kind == 'u' || kind == 'U') {
+    const auto lead = static_cast<unsigned char>(first);
+    return {kind == 'u' ? 6U : 10U, lead < 0x80 ? 1U : lead < 0xe0 ? 2U : lead < 0xf0 ? 3U : 4U};
+  }
+  constexpr std::string_view kBlanks = " \t\r\n";
+  if (kBlanks.find(kind) == std::string_view::npos) return {2, 1};
+  // the line goes on behind the blanks
+  const std::size_t end = written.find_first_not_of(kBlanks, 1);
+  return {end == std::string_view::npos ? written.size() : end, 0};
+}
+
 }  // namespace
 
 TomlDocument::TomlDocument(std::string text, std::string file) : text_(std::move(text)), file_(std::move(file)) {
@@ -39,16 +64,42 @@ SourceLocation TomlDocument::location(const toml::source_position& position) con
   return {file_, static_cast<int>(position.line), static_cast<int>(column) + 1};
 }
 
-TomlDocument::TextLocation TomlDocument::text_location(const toml::value<std::string>& value) const {
+std::vector<TextPosition> TomlDocument::content_positions(const toml::value<std::string>& value) const {
+  const std::string& content = value.get();
   const std::size_t begin = offset(value.source().begin);
   const std::string_view written = std::string_view(text_).substr(begin);
-  const bool multi_line = written.starts_with("\"\"\"") || written.starts_with("'''");
-  const std::size_t skipped = multi_line ? (written.substr(3).starts_with('\n') ? 4 : 3) : 1;
-  SourceLocation where = location(value);
-  if (!written.substr(std::min(skipped, written.size())).starts_with(value.get())) return {where, false};
-  if (skipped == 4) return {{file_, where.line + 1, 1}, true};
-  where.column += static_cast<int>(skipped);
-  return {where, true};
+  const bool is_multi_line = written.starts_with("\"\"\"") || written.starts_with("'''");
+  const bool has_escapes = written.starts_with('"');
+  std::size_t i = is_multi_line ? 3 : 1;
+  if (is_multi_line) i += line_end_length(written.substr(i));
+
+  std::vector<TextPosition> positions;
+  const SourceLocation start = location(value);
+  TextPosition position{start.line, start.column};
+  std::size_t counted = 0;
+  const auto here = [&] {
+    for (; counted < i; ++counted) {
+      ++position.column;
+      if (written[counted] == '\n') position = {position.line + 1, 1};
+    }
+    return position;
+  };
+  while (positions.size() < content.size() && i < written.size()) {
+    std::size_t bytes = 1;
+    std::size_t length = 1;
+    if (has_escapes && written[i] == '\\') {
+      const Escape escape = escape_at(written.substr(i), content[positions.size()]);
+      bytes = escape.bytes;
+      length = escape.length;
+    } else if (written[i] == '\r' && content[positions.size()] == '\n') {
+      length = line_end_length(written.substr(i));
+    }
+    positions.insert(positions.end(), bytes, here());
+    i += length;
+  }
+  positions.resize(content.size(), here());
+  positions.push_back(here());
+  return positions;
 }
 
 std::vector<TomlEntry> entries_in_file_order(const toml::table& table) {

@@ -11,6 +11,12 @@
 
 namespace trajet::detail {
 
+/// Line and column, from 1; columns count bytes.
+struct TextPosition {
+  int line;
+  int column;
+};
+
 /// A parsed TOML text that knows where in the file everything stands.
 class TomlDocument {
  public:
@@ -23,13 +29,9 @@ class TomlDocument {
   SourceLocation location(const toml::node& node) const { return location(node.source().begin); }
   SourceLocation location(const toml::key& key) const { return location(key.source().begin); }
 
-  /// Where the first character of a string's content stands, if the file has the content letter by letter; otherwise
-  /// (escape sequences) where the value stands, and `is_verbatim` is false.
-  struct TextLocation {
-    SourceLocation where;
-    bool is_verbatim = false;
-  };
-  TextLocation text_location(const toml::value<std::string>& value) const;
+  /// Where each byte of a string's content stands, and where the content ends. Escape sequences count as the bytes they
+  /// stand for.
+  std::vector<TextPosition> content_positions(const toml::value<std::string>& value) const;
 
  private:
   SourceLocation location(const toml::source_position& position) const;

@@ -87,13 +87,20 @@ long TableReader::whole_number(std::string_view key, long smallest, long default
 }
 
 Expression TableReader::expression_of(const toml::value<std::string>& value, std::optional<Dimension> expected) const {
-  const TomlDocument::TextLocation place = document_.text_location(value);
+  const std::string& text = value.get();
+  const std::vector<TextPosition> positions = document_.content_positions(value);
+  const SourceLocation in_content{document_.file(), 1, 1};
+  const auto place = [&](const SourceLocation& where) {
+    std::size_t offset = 0;
+    for (int line = 1; line < where.line; ++line) offset = text.find('\n', offset) + 1;
+    const TextPosition& position =
+        positions[std::min(offset + static_cast<std::size_t>(where.column) - 1, text.size())];
+    return SourceLocation{document_.file(), position.line, position.column};
+  };
   try {
-    return read_formula(value.get(), place.where, dashed_names_, expected);
+    return read_formula(text, in_content, dashed_names_, expected).relocated(place);
   } catch (const InputError& error) {
-    // With escape sequences in between, a column counted in the content would point beside the fault.
-    if (place.is_verbatim) throw;
-    throw InputError(place.where, error.message());
+    throw InputError(place(error.where()), error.message());
   }
 }
 

@@ -47,6 +47,11 @@ void collect_names(const SyntaxNode& node, std::vector<std::string>& names) {
   for (const SyntaxNode& child : node.children) collect_names(child, names);
 }
 
+void relocate(SyntaxNode& node, const std::function<SourceLocation(const SourceLocation&)>& place) {
+  node.where = place(node.where);
+  for (SyntaxNode& child : node.children) relocate(child, place);
+}
+
 }  // namespace
 
 Expression::Expression(detail::Formula formula) : formula_(std::make_shared<const Formula>(std::move(formula))) {}
@@ -74,6 +79,13 @@ Expression Expression::vector(const Expression& x, const Expression& y, const Ex
 
 Expression Expression::number(double value, const SourceLocation& where) {
   return Expression(number_formula(value, where));
+}
+
+Expression Expression::relocated(const std::function<SourceLocation(const SourceLocation&)>& place) const {
+  Formula formula = *formula_;
+  formula.where = place(formula.where);
+  relocate(formula.root, place);
+  return Expression(std::move(formula));
 }
 
 const SourceLocation& Expression::where() const { return formula_->where; }

@@ -263,7 +263,7 @@ class Compiler {
     try {
       return graph_.table(path.string(), x);
     } catch (const FileError& error) {
-      throw FileError(InputError(node.where, error.what()).what());
+      throw FileError(node.where, error.what());
     }
   }
 

@@ -26,9 +26,9 @@ const MethodInfo* find_scene_method(const MethodOptions& method) {
 void check_order(const MethodOptions& method, const MethodInfo& info) {
   if (method.order <= info.max_order) return;
   const std::string name = "method '" + std::string(info.name) + "'";
-  throw InputError(method.where, info.max_order == 0
-                                     ? name + " has an order of its own: [method] order does not go with it"
-                                     : name + " takes an order of at most " + std::to_string(info.max_order));
+  throw InputError(method.order_where, info.max_order == 0
+                                           ? name + " has an order of its own: [method] order does not go with it"
+                                           : name + " takes an order of at most " + std::to_string(info.max_order));
 }
 
 /// The formula behind a component of a group's state, in words and as a place in the scene.

@@ -159,6 +159,8 @@ TEST(Run, InterruptWritesWhatWasComputed) {
 TEST(ExitCodes, TellWhatWasWrong) {
   const TemporaryFolder folder;
   const std::string wrong = folder.write("wrong.toml", "[time]\nend = \"5 m\"\n[[body]]\nname = \"b\"\n");
+  const std::string no_table = folder.write(
+      "no_table.toml", "[time]\nend = 1\n[[body]]\nname = \"b\"\nacceleration = \"[table('none.csv', t), 0, 0]\"\n");
   struct Case {
     std::vector<std::string> arguments;
     int exit_code;
@@ -178,6 +180,8 @@ TEST(ExitCodes, TellWhatWasWrong) {
       {{"run", kRifleShot, "--method", "rk44"}, 2, "did you mean"},
       {{"run", wrong}, 3, wrong + ":2:10: error: time [s] expected, got length [m]"},
       {{"check", wrong}, 3, ":2:10: error:"},
+      {{"run", kRifleShot, "--order", "99"}, 2, "--order: error: method 'taylor' takes an order of at most"},
+      {{"run", no_table}, 5, no_table + ":5:18: error: cannot read the table"},
       {{"run", kRifleShot, "--fps", "0"}, 2, "a positive number expected, got '0'"},
       {{"run", folder.file("none.toml")}, 5, "none.toml"},
       {{"run", kRifleShot, "--json", folder.file("no/folder.json")}, 5, "cannot write"},

@@ -51,9 +51,9 @@ TEST(SceneMethod, VerletRefusesForcesThatDependOnVelocities) {
 
 TEST(SceneMethod, AnOrderIsForMethodsThatTakeOne) {
   EXPECT_EQ(message_of(ball_scene("name = \"rk4\"\nstep = 1\norder = 3\n", "")),
-            "test.toml:4:8: error: method 'rk4' has an order of its own: [method] order does not go with it");
+            "test.toml:6:9: error: method 'rk4' has an order of its own: [method] order does not go with it");
   EXPECT_EQ(message_of(ball_scene("name = \"series\"\nstep = 1\norder = 40\n", "")),
-            "test.toml:4:8: error: method 'series' takes an order of at most 25");
+            "test.toml:6:9: error: method 'series' takes an order of at most 25");
 }
 
 // Erratum A1, as scenes: 171 with five steps, 176 with steps of 1, 2, 3 and 4 s, the exact 503/3 by the other formula.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
@@ -33,6 +34,9 @@ class Expression {
   static Expression vector(const Expression& x, const Expression& y, const Expression& z);
   /// A number that stands at `where` in a file: errors about its use point there.
   static Expression number(double value, const SourceLocation& where);
+
+  /// The same with `place(where)` for every place in it: of a text that was cut out of another.
+  Expression relocated(const std::function<SourceLocation(const SourceLocation&)>& place) const;
 
   const SourceLocation& where() const;
   /// The text it was parsed from, or an equivalent one.

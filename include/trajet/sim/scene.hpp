@@ -39,6 +39,7 @@ struct MethodOptions {
   std::optional<Expression> step;  ///< s
   std::vector<Expression> steps;   ///< s; unequal steps of a fixed-step method, one after the other
   int order = 0;                   ///< series methods; 0: the method chooses
+  SourceLocation order_where{};
   long max_steps = 1'000'000;
   Locator locate = Locator::polynomial;  ///< how the times of impacts are found
   OrientationWay orientation = OrientationWay::quaternion_normalized;  ///< how orientations are carried
