@@ -36,7 +36,8 @@ int methods_command() {
   constexpr const char* kOrientationRow = "{:<22} {:<18} {:<10} {}\n";
   text += "\n" + fmt::format(kOrientationRow, "orientation", "aliases", "numbers", "known as");
   for (const OrientationInfo& info : orientation_ways()) {
-    text += fmt::format(kOrientationRow, info.name, fmt::format("{}", fmt::join(info.aliases, ", ")), info.size, info.known_as);
+    text += fmt::format(kOrientationRow, info.name, fmt::format("{}", fmt::join(info.aliases, ", ")), info.size,
+                        info.known_as);
     text += fmt::format("{:<22} {}\n", "", info.summary);
   }
   OutputFile out("-");

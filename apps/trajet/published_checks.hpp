@@ -13,8 +13,8 @@ struct PublishedCheck {
   std::string scene;         ///< as a scene file
   std::string_view observe;  ///< `final NAME`: ball.z, ball.vx or a state; `impact K`: time of the K-th one; `rest`: of
                              ///< the first rest; `nodes METHOD N`: the largest error over the nodes of N steps
-  double value;      ///< as published, SI
-  double tolerance;  ///< absolute: half a unit of the last digit that was published, and our own rounding
+  double value;              ///< as published, SI
+  double tolerance;          ///< absolute: half a unit of the last digit that was published, and our own rounding
 };
 
 /// All of them, by source.

@@ -19,7 +19,8 @@ double tumble(double step) {
   btDiscreteDynamicsWorld world(&dispatcher, &broadphase, &solver, &configuration);
   world.setGravity(btVector3(0, 0, 0));
   btBoxShape shape(bullet_vector(0.5 * Boxes::size()));
-  btRigidBody body(btRigidBody::btRigidBodyConstructionInfo(Boxes::kMass, nullptr, &shape, bullet_vector(Boxes::inertia())));
+  btRigidBody body(
+      btRigidBody::btRigidBodyConstructionInfo(Boxes::kMass, nullptr, &shape, bullet_vector(Boxes::inertia())));
   body.setDamping(0, 0);
   body.setActivationState(DISABLE_DEACTIVATION);
   body.setFlags(body.getFlags() | BT_ENABLE_GYROSCOPIC_FORCE_IMPLICIT_BODY);

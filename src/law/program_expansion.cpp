@@ -9,7 +9,8 @@
 namespace trajet {
 
 template <class T>
-ProgramExpansionT<T>::ProgramExpansionT(Program program) : program_(std::move(program)), row_count_(program_.slot_count) {
+ProgramExpansionT<T>::ProgramExpansionT(Program program)
+    : program_(std::move(program)), row_count_(program_.slot_count) {
   assert(program_.input_count == dimension() + 1);
   end_state_.resize(program_.outputs.size());
   end_tolerance_.resize(program_.outputs.size());

@@ -54,7 +54,7 @@ class ErrorMeter : public RunObserver {
   RunObserver* onlooker_;
   const World* world_ = nullptr;  // while the run lasts
   double start_ = 0.0;            // s
-  double sample_ = 0.0;  // s, signed
+  double sample_ = 0.0;           // s, signed
   std::vector<Group> groups_;
   Deviation at_samples_;
   Deviation at_nodes_;
@@ -62,7 +62,7 @@ class ErrorMeter : public RunObserver {
   RotationDeviation rotation_at_samples_;
   std::vector<RotationSample> rotation_history_;
   long history_stride_ = 1;  // samples for each entry of the history
-  Eigen::VectorXd state_;  // scratch
+  Eigen::VectorXd state_;    // scratch
   Eigen::VectorXd reference_state_;
 };
 

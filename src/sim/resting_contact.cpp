@@ -68,7 +68,8 @@ class FaceEdges {
   }
   std::vector<Edge> operator()(const Triangle& triangle) const {
     std::vector<Edge> edges;
-    for (int i = 0; i < 3; ++i) edges.push_back({triangle.edge_outward[i], triangle.edge_outward[i].dot(triangle.corners[i])});
+    for (int i = 0; i < 3; ++i)
+      edges.push_back({triangle.edge_outward[i], triangle.edge_outward[i].dot(triangle.corners[i])});
     return edges;
   }
   std::vector<Edge> operator()(const Box& box) const {

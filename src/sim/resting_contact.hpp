@@ -13,7 +13,8 @@ struct RestingContact {
   int pair = 0;    ///< of the Motion
   int offset = 0;  ///< of the body in the group's state
   Vector3 normal;  ///< unit, away from the obstacle
-  Vector3 release = normal;  ///< the contact would have to pull where release . a > 0, a the acceleration without contacts
+  Vector3 release =
+      normal;  ///< the contact would have to pull where release . a > 0, a the acceleration without contacts
 };
 
 /// What the contacts of one body on several obstacles with the normals n_i do together.
@@ -25,7 +26,8 @@ struct Support {
 };
 Support support(const std::vector<Vector3>& normals);
 
-/// Whether a body can rest on a shape where its normal is `normal`: on a flat face; not on a curved surface, an edge, a corner.
+/// Whether a body can rest on a shape where its normal is `normal`: on a flat face; not on a curved surface, an edge, a
+/// corner.
 bool is_flat_at(const Shape& shape, const Vector3& normal);
 
 /// Whether a body whose centre is at `position` is at an edge of the face with that normal, and moves off it.

@@ -6,8 +6,8 @@
 
 namespace trajet {
 
-/// Finds the scene's method and gives its options their numbers, into a World whose times are set. Throws InputError for
-/// an unknown method, a missing step, an order that cannot be chosen.
+/// Finds the scene's method and gives its options their numbers, into a World whose times are set. Throws InputError
+/// for an unknown method, a missing step, an order that cannot be chosen.
 void set_method(const MethodOptions& method, const SceneNumbers& numbers, World& world);
 
 /// Throws InputError at the formula that the World's method cannot integrate, once the groups have their laws.

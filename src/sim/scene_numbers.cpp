@@ -79,7 +79,8 @@ double SceneNumbers::not_negative(const Expression& value, const std::string& wh
 double SceneNumbers::within(const Expression& value, double lowest, double highest, const std::string& what) const {
   const double number = scalar(value, what);
   if (number < lowest || number > highest)
-    throw InputError(value.where(), what + " must lie between " + shown(lowest) + " and " + shown(highest) + ", got " + shown(number));
+    throw InputError(value.where(),
+                     what + " must lie between " + shown(lowest) + " and " + shown(highest) + ", got " + shown(number));
   return number;
 }
 
@@ -107,8 +108,9 @@ Quaternion SceneNumbers::orientation(const OrientationDefinition& orientation, c
     for (int i = 0; i < 3; ++i) R.row(i) = vector(orientation.matrix[static_cast<std::size_t>(i)], what).transpose();
     constexpr double kOrthogonality = 1e-9;  // what a matrix printed to ten digits keeps
     if (!(R.transpose() * R).isIdentity(kOrthogonality) || !(R.determinant() > 0.0))
-      throw InputError(orientation.matrix[0].where(), what + " is no rotation matrix: its rows must be orthogonal unit "
-                                                             "vectors, right-handed");
+      throw InputError(orientation.matrix[0].where(), what +
+                                                          " is no rotation matrix: its rows must be orthogonal unit "
+                                                          "vectors, right-handed");
     return from_rotation_matrix(nearest_rotation(R));
   }
   return Quaternion::Identity();

@@ -25,16 +25,16 @@ inline constexpr const char* kRotationNames[] = {"w",   "wx",  "wy",  "wz",  "w_
 /// The body part of that name, or nullptr.
 const BodyPart* find_body_part(std::string_view name);
 
-/// The parameters of a scene, evaluated whatever the order in which they refer to each other, and the names that they must
-/// not use. Throws InputError: a circle, an unknown name, a value that is not finite.
+/// The parameters of a scene, evaluated whatever the order in which they refer to each other, and the names that they
+/// must not use. Throws InputError: a circle, an unknown name, a value that is not finite.
 struct ParameterSet {
   Symbols symbols;
   std::vector<NamedValue> values;
 };
 ParameterSet evaluate_parameters(const Scene& scene);
 
-/// Adds the meanings of the names of a body's position and velocity: `prefix` is "" for its own laws or "NAME." for those of others. `input` is the index
-/// of its first component among the inputs of a program.
+/// Adds the meanings of the names of a body's position and velocity: `prefix` is "" for its own laws or "NAME." for
+/// those of others. `input` is the index of its first component among the inputs of a program.
 void add_body_symbols(Symbols& symbols, const std::string& prefix, int input);
 
 }  // namespace trajet

@@ -16,8 +16,8 @@ namespace trajet {
 
 /// Runs a World: integrate, find the first incident, respond, go on from there. Nothing else in trajet joins the three.
 ///
-/// The motions of a World advance on their own, each by its own Segments. The simulation handles incidents in the order of
-/// time over all motions, so that at each of them every motion's current Segment covers that time.
+/// The motions of a World advance on their own, each by its own Segments. The simulation handles incidents in the order
+/// of time over all motions, so that at each of them every motion's current Segment covers that time.
 class Simulation {
  public:
   Simulation(const World& world, RunObserver& observer);
@@ -36,14 +36,15 @@ class Simulation {
     bool rests = false;
     double duration = 0.0;  ///< s
   };
-  RestingTime resting_time(const Motion& motion, const Motion::Pair& pair, const Impact& impact, const Eigen::VectorXd& q) const;
+  RestingTime resting_time(const Motion& motion, const Motion::Pair& pair, const Impact& impact,
+                           const Eigen::VectorXd& q) const;
   /// A contact that has ended, and what is known of its pair after the next restart.
   struct Released {
     int pair;
     ContactMemory memory;
   };
-  /// After an impact of a resting body that gave it state `q`: ends the rests from or into which it moves now, and takes out
-  /// of its velocity what the others do not let pass.
+  /// After an impact of a resting body that gave it state `q`: ends the rests from or into which it moves now, and
+  /// takes out of its velocity what the others do not let pass.
   std::vector<Released> release_by_speed(Motion& motion, const World::Body& body, double t, Eigen::VectorXd& q);
   /// Ends the rests that would have to pull at the body.
   void release_by_force(Motion& motion, const World::Body& body, double t, const Eigen::VectorXd& q,
@@ -76,7 +77,9 @@ class Simulation {
   Sample sample_at(double time) const;
 
   Motion& motion(int index) { return *motions_[static_cast<std::size_t>(index)]; }
-  const World::Body& body_of(const Motion::Pair& pair) const { return world_.bodies[static_cast<std::size_t>(pair.body)]; }
+  const World::Body& body_of(const Motion::Pair& pair) const {
+    return world_.bodies[static_cast<std::size_t>(pair.body)];
+  }
   const World::Obstacle& obstacle_of(const Motion::Pair& pair) const {
     return world_.obstacles[static_cast<std::size_t>(pair.obstacle)];
   }

@@ -99,8 +99,9 @@ class WorldBuilder {
   void find_dependencies() {
     for (std::size_t i = 0; i < scene_.bodies.size(); ++i) {
       const BodyDefinition& body = scene_.bodies[i];
-      for (const auto* law : {&body.acceleration, &body.force, &body.mass, &body.position_rate, &body.angular_acceleration,
-                              &body.angular_acceleration_body, &body.torque, &body.torque_body, &body.force_point})
+      for (const auto* law :
+           {&body.acceleration, &body.force, &body.mass, &body.position_rate, &body.angular_acceleration,
+            &body.angular_acceleration_body, &body.torque, &body.torque_body, &body.force_point})
         if (*law) depend(static_cast<int>(i), **law);
     }
     for (std::size_t i = 0; i < scene_.states.size(); ++i) depend(state_member(i), scene_.states[i].rate);
@@ -352,7 +353,8 @@ class WorldBuilder {
         if (name == "w" && body.rotation)
           return {body.group, body.rotation->offset + body.rotation->layout.size(), 3, &body};
         if (name == "w")
-          throw InputError(assignment.where, "body '" + body.name + "' does not turn: give it an `angular_velocity`, which may be 0");
+          throw InputError(assignment.where,
+                           "body '" + body.name + "' does not turn: give it an `angular_velocity`, which may be 0");
       }
     }
     throw InputError(assignment.where,

@@ -38,9 +38,12 @@ constexpr double kTolerance = 1e-17;
 
 TEST(TaylorExtended, FreeTopKeepsItsDigits) {
   using problems::FreeTop;
-  const SceneState states[] = {{"q0", "1", "-(q1*w1 + q2*w2 + q3*w3)/2"}, {"q1", "0", "(q0*w1 + q2*w3 - q3*w2)/2"},
-                               {"q2", "0", "(q0*w2 + q3*w1 - q1*w3)/2"},  {"q3", "0", "(q0*w3 + q1*w2 - q2*w1)/2"},
-                               {"w1", "0.01", "-w2*w3"},                  {"w2", "3", "w3*w1"},
+  const SceneState states[] = {{"q0", "1", "-(q1*w1 + q2*w2 + q3*w3)/2"},
+                               {"q1", "0", "(q0*w1 + q2*w3 - q3*w2)/2"},
+                               {"q2", "0", "(q0*w2 + q3*w1 - q1*w3)/2"},
+                               {"q3", "0", "(q0*w3 + q1*w2 - q2*w1)/2"},
+                               {"w1", "0.01", "-w2*w3"},
+                               {"w2", "3", "w3*w1"},
                                {"w3", "0.02", "-w1*w2/3"}};
   const auto error = [&](const char* method) {
     return error_at_end(states, FreeTop::reference_end(), FreeTop::end_time(), controlled(method, kTolerance));

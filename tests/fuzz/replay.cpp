@@ -27,10 +27,18 @@ std::string mutated(std::string text, std::mt19937& random) {
     const std::size_t at = random() % text.size();
     const std::size_t length = 1 + random() % 16;
     switch (random() % 4) {
-      case 0: text[at] = static_cast<char>(random() % 256); break;
-      case 1: text.erase(at, length); break;
-      case 2: text.insert(at, text.substr(at, length)); break;
-      default: text.insert(random() % text.size(), text.substr(at, length)); break;
+      case 0:
+        text[at] = static_cast<char>(random() % 256);
+        break;
+      case 1:
+        text.erase(at, length);
+        break;
+      case 2:
+        text.insert(at, text.substr(at, length));
+        break;
+      default:
+        text.insert(random() % text.size(), text.substr(at, length));
+        break;
     }
   }
   return text;

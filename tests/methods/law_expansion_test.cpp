@@ -17,12 +17,12 @@ using Vector2 = Eigen::Matrix<double, 2, 1>;
 struct SmoothFunctions {
   template <class Time, class Vector, class Rate>
   void operator()(const Time& t, const Vector& q, Rate& dq) const {
-    using std::sin, std::cos, std::exp, std::sqrt, std::tan, std::tanh, std::asin, std::acos, std::atan, std::sinh, std::cosh,
-        std::log, std::log10, std::cbrt, std::pow, std::atan2;
+    using std::sin, std::cos, std::exp, std::sqrt, std::tan, std::tanh, std::asin, std::acos, std::atan, std::sinh,
+        std::cosh, std::log, std::log10, std::cbrt, std::pow, std::atan2;
     const auto x = 0.5 + 0.1 * sin(q[0]);
     dq[0] = cos(t) * exp(-q[0]) + sqrt(1.0 + q[1] * q[1]) / (2.0 + q[0] * q[0]) - tan(0.3 * x) + tanh(q[1]);
-    dq[1] = asin(x) + acos(x) * atan(q[0]) - sinh(0.2 * q[1]) + cosh(x) * log(x) + log10(2.0 + x) + cbrt(x) + pow(x, 2.5) +
-            pow(x, 3.0) + atan2(x, 1.0 + q[1] * q[1]) - 3.0 / (1.0 + x) + (2.0 - x) - x / 3.0;
+    dq[1] = asin(x) + acos(x) * atan(q[0]) - sinh(0.2 * q[1]) + cosh(x) * log(x) + log10(2.0 + x) + cbrt(x) +
+            pow(x, 2.5) + pow(x, 3.0) + atan2(x, 1.0 + q[1] * q[1]) - 3.0 / (1.0 + x) + (2.0 - x) - x / 3.0;
   }
 };
 
@@ -62,7 +62,8 @@ TEST(LawExpansion, AgreesWithSeriesArithmetic) {
     for (int k = 0; k <= kOrder; ++k)
       for (int i = 0; i < 2; ++i)
         // the two ways round differently; measured below 1e-14 of the size of the coefficients
-        EXPECT_NEAR(coefficients(i, k), expected(i, k), 1e-13 * std::max(1.0, std::abs(expected(i, k)))) << i << " " << k;
+        EXPECT_NEAR(coefficients(i, k), expected(i, k), 1e-13 * std::max(1.0, std::abs(expected(i, k))))
+            << i << " " << k;
   }
 }
 
@@ -80,7 +81,8 @@ TEST(LawExpansion, SolvesTheLawInExtendedPrecision) {
   for (int k = kOrder - 1; k >= 1; --k) rate = rate * tau + Number(k) * c.col(k);
   SmoothFunctions()(0.2 + tau, q, law);
   // some 30 operations a component; one that rounds to double shows 1e-17 of the size 1 at least
-  for (int i = 0; i < 2; ++i) EXPECT_NEAR(static_cast<double>(rate[i] - law[i]), 0.0, 30 * std::numeric_limits<Number>::epsilon());
+  for (int i = 0; i < 2; ++i)
+    EXPECT_NEAR(static_cast<double>(rate[i] - law[i]), 0.0, 30 * std::numeric_limits<Number>::epsilon());
 }
 
 }  // namespace

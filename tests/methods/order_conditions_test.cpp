@@ -79,8 +79,7 @@ TYPED_TEST(OrderConditions, DenseOutputStartsWithTheRateAndEndsInTheState) {
 
 template <class Method>
 class SmoothDenseOutput : public testing::Test {};
-using SmoothTableaus =
-    testing::Types<Rk4Tableau, Rk4ThreeEighthsTableau, Bs32Tableau, Dopri5Tableau, Dop853Tableau>;
+using SmoothTableaus = testing::Types<Rk4Tableau, Rk4ThreeEighthsTableau, Bs32Tableau, Dopri5Tableau, Dop853Tableau>;
 TYPED_TEST_SUITE(SmoothDenseOutput, SmoothTableaus);
 
 TYPED_TEST(SmoothDenseOutput, EndsWithTheRateAtTheEnd) {

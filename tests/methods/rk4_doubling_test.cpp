@@ -77,8 +77,8 @@ TEST(Rk4Doubling, ABodyAtRestConvergesAtOnce) {
   EXPECT_EQ(trajectory.end(), Eigen::Vector2d(0.0, 0.0));
 }
 
-// A14: c of the first marches of the first interval, eps = 1e-6: 0.0854 s with eps |q|, not the 0.0740 s of eps alone. The
-// proposal goes as eps^(1/4), so that an accuracy which the first marches reach tells it.
+// A14: c of the first marches of the first interval, eps = 1e-6: 0.0854 s with eps |q|, not the 0.0740 s of eps alone.
+// The proposal goes as eps^(1/4), so that an accuracy which the first marches reach tells it.
 TEST(Rk4Doubling, ProposesTheNextStepFromTheRelativeError) {
   const auto trajectory = solve<Rk4Doubling>(Drag(), 0.0, Drag::start(), 1.0, options(1.0, 1.0));
   ASSERT_EQ(trajectory.statistics.law_evaluations, 12);
@@ -95,7 +95,8 @@ TEST(Rk4Doubling, ErrorFallsWithTheFifthPowerOfTheInterval) {
   const auto end_error = [](int intervals) {
     const double t1 = Coupled::end_time();
     const SolveOptions some = options(kAnything, (t1 - Coupled::start_time()) / intervals);
-    return (solve<Rk4Doubling>(Coupled(), Coupled::start_time(), Coupled::start(), t1, some).end() - Coupled::exact(t1)).eval();
+    return (solve<Rk4Doubling>(Coupled(), Coupled::start_time(), Coupled::start(), t1, some).end() - Coupled::exact(t1))
+        .eval();
   };
   for (const int intervals : {100, 200}) {
     const auto coarse = end_error(intervals), fine = end_error(2 * intervals);
@@ -106,7 +107,8 @@ TEST(Rk4Doubling, ErrorFallsWithTheFifthPowerOfTheInterval) {
 TEST(Rk4Doubling, SegmentsAreOfOrderFour) {
   const auto error_within = [](double part, double interval) {
     const double t0 = 1.0;
-    const auto trajectory = solve<Rk4Doubling>(Coupled(), t0, Coupled::exact(t0), t0 + interval, options(kAnything, interval));
+    const auto trajectory =
+        solve<Rk4Doubling>(Coupled(), t0, Coupled::exact(t0), t0 + interval, options(kAnything, interval));
     const double t = t0 + part * interval;
     return (trajectory.segments.front().state(t) - Coupled::exact(t)).eval();
   };

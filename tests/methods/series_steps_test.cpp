@@ -25,7 +25,8 @@ SolveOptions options(int order, double step) {
 TEST(SeriesSteps, ErrorsAreOfTheOrderAskedFor) {
   const auto end_error = [](int order, int steps) {
     const double t1 = Coupled::end_time();
-    return (solve<SeriesSteps>(Coupled(), Coupled::start_time(), Coupled::start(), t1, options(order, 1.75 / steps)).end() -
+    return (solve<SeriesSteps>(Coupled(), Coupled::start_time(), Coupled::start(), t1, options(order, 1.75 / steps))
+                .end() -
             Coupled::exact(t1))
         .eval();
   };
@@ -44,7 +45,8 @@ TEST(SeriesSteps, SegmentsAreOfTheOrderEverywhereAndWithinTheirBounds) {
       Eigen::Vector2d errors[2], bounds[2];
       for (int half = 0; half < 2; ++half) {
         const double step = half == 0 ? h : h / 2;
-        const auto segment = solve<SeriesSteps>(Coupled(), 1.0, Coupled::exact(1.0), 1.0 + step, options(order, step)).segments.front();
+        const auto segment =
+            solve<SeriesSteps>(Coupled(), 1.0, Coupled::exact(1.0), 1.0 + step, options(order, step)).segments.front();
         EXPECT_EQ(segment.degree(), order);
         errors[half] = segment.state(1.0 + part * step) - Coupled::exact(1.0 + part * step);
         bounds[half] = segment.error_bound();
@@ -61,7 +63,8 @@ TEST(SeriesSteps, SegmentsAreOfTheOrderEverywhereAndWithinTheirBounds) {
 // The course's example of F10: one more derivative of a(t) than it has makes the scheme exact.
 TEST(SeriesSteps, IsExactForPolynomialsOfItsOrder) {
   using problems::LinearAcceleration;
-  const auto trajectory = solve<SeriesSteps>(LinearAcceleration(), 0.0, LinearAcceleration::start(), 10.0, options(3, 2.5));
+  const auto trajectory =
+      solve<SeriesSteps>(LinearAcceleration(), 0.0, LinearAcceleration::start(), 10.0, options(3, 2.5));
   EXPECT_EQ(trajectory.segments.size(), 4u);
   EXPECT_LT((trajectory.end() - LinearAcceleration::exact(10.0)).norm(), 1e-12);
   EXPECT_EQ(trajectory.statistics.law_evaluations, 4);

@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "problems/driven.hpp"
 #include "problems/drag.hpp"
+#include "problems/driven.hpp"
 #include "problems/kepler.hpp"
 #include "problems/lotka_volterra.hpp"
 #include "problems/oscillator.hpp"

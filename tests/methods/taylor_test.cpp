@@ -20,10 +20,12 @@ TEST(Taylor, DragIsExactToTheTolerance) {
   const auto trajectory = solve(Drag{}, 0.0, Drag::start(), 10.0, {{.rtol = 1e-13, .atol = 1e-13}});
   ASSERT_EQ(trajectory.status, IntegrationStatus::finished);
   for (const auto& segment : trajectory.segments)
-    EXPECT_LT((segment.state(segment.t1()) - Drag::exact(segment.t1())).lpNorm<Eigen::Infinity>(), 2e-13) << segment.t1();
+    EXPECT_LT((segment.state(segment.t1()) - Drag::exact(segment.t1())).lpNorm<Eigen::Infinity>(), 2e-13)
+        << segment.t1();
 }
 
-/// The error follows the tolerance over its whole range; the law's own amplification is below 20 on this problem (measured).
+/// The error follows the tolerance over its whole range; the law's own amplification is below 20 on this problem
+/// (measured).
 TEST(Taylor, ErrorIsAtTheTolerance) {
   using problems::FreeKick;
   for (double tolerance = 1e-3; tolerance > 1e-14; tolerance *= 0.1) {
@@ -62,7 +64,8 @@ struct HighPower {
   void operator()(const Time& t, const Vector&, Rate& dq) const {
     const auto t3 = t * t * t;
     const auto t9 = t3 * t3 * t3;
-    dq[0] = t9 * t9 * t9 * t9;  // t^36: a polynomial of a higher degree than the series, whose first coefficients all vanish
+    dq[0] = t9 * t9 * t9 *
+            t9;  // t^36: a polynomial of a higher degree than the series, whose first coefficients all vanish
   }
 };
 

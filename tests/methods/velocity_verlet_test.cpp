@@ -15,8 +15,8 @@ using problems::Kepler;
 
 double observed_order(double coarse, double fine) { return std::log2(std::abs(coarse / fine)); }
 
-/// Two masses on springs that time stiffens: coupled, non-linear, with time in the law. State: (r1, r2, v1, v2); where the
-/// velocities stand does not matter.
+/// Two masses on springs that time stiffens: coupled, non-linear, with time in the law. State: (r1, r2, v1, v2); where
+/// the velocities stand does not matter.
 struct Springs {
   template <class Time, class Vector, class Rate>
   void operator()(const Time& t, const Vector& q, Rate& dq) const {
@@ -40,7 +40,9 @@ Trajectory<4> solve_springs(double t0, const Eigen::Vector4d& q0, double t1, dou
 
 TEST(VelocityVerlet, ErrorsAreOfOrderTwo) {
   const Eigen::Vector4d exact = solve_springs<Taylor>(0.0, Springs::start(), 3.0, 0.1).end();
-  const auto end_error = [&](int steps) { return (solve_springs<VelocityVerlet>(0.0, Springs::start(), 3.0, 3.0 / steps).end() - exact).eval(); };
+  const auto end_error = [&](int steps) {
+    return (solve_springs<VelocityVerlet>(0.0, Springs::start(), 3.0, 3.0 / steps).end() - exact).eval();
+  };
   for (const int steps : {400, 800}) {
     const auto coarse = end_error(steps), fine = end_error(2 * steps);
     for (int i = 0; i < 4; ++i) EXPECT_NEAR(observed_order(coarse[i], fine[i]), 2.0, 0.1) << i;
@@ -103,7 +105,9 @@ TEST(VelocityVerlet, TakesADriftOfItsOwn) {
     dq[1] = -q[0] + t * t * t / 3.0 - 2.0 * t;  // x = cos t + t^3/3 - …
   };
   // r = u + t^3/3 with u'' = -u - 2 t: u = cos t - 2 t, v = u'
-  const auto exact = [](double t) { return Eigen::Vector2d(std::cos(t) - 2.0 * t + t * t * t / 3.0, -std::sin(t) - 2.0); };
+  const auto exact = [](double t) {
+    return Eigen::Vector2d(std::cos(t) - 2.0 * t + t * t * t / 3.0, -std::sin(t) - 2.0);
+  };
   const auto error = [&](int steps) {
     SolveOptions options;
     options.step = 2.0 / steps;
@@ -116,7 +120,8 @@ TEST(VelocityVerlet, TakesADriftOfItsOwn) {
 TEST(VelocityVerlet, RefusesForcesThatDependOnVelocities) {
   SolveOptions options;
   options.step = 0.1;
-  EXPECT_THROW(solve<VelocityVerlet>(problems::Drag(), 0.0, problems::Drag::start(), 1.0, options), std::invalid_argument);
+  EXPECT_THROW(solve<VelocityVerlet>(problems::Drag(), 0.0, problems::Drag::start(), 1.0, options),
+               std::invalid_argument);
 }
 
 }  // namespace

@@ -142,7 +142,8 @@ TEST(ProgramExpansion, is_extended_where_its_coefficients_are) {
     Number rate = 0;
     for (int k = kOrder; k >= 1; --k) rate = rate * tau + static_cast<Number>(k) * c[static_cast<std::size_t>(k)];
     // the function and its first coefficients are rounded, relative to numbers up to 2
-    EXPECT_NEAR(static_cast<double>(rate - function.value(0.5L + tau)), 0.0, 16 * std::numeric_limits<Number>::epsilon())
+    EXPECT_NEAR(static_cast<double>(rate - function.value(0.5L + tau)), 0.0,
+                16 * std::numeric_limits<Number>::epsilon())
         << function.rate;
   }
 }

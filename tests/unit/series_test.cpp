@@ -61,7 +61,8 @@ TEST(Series, InverseFunctionsUndoEachOther) {
   std::mt19937_64 generator(1);
   for (int trial = 0; trial < 100; ++trial) {
     const S x = random_series(generator, 0.4);
-    // The intermediate series grow at most like the powers of the inverse distance to the next singularity: measured 40.
+    // The intermediate series grow at most like the powers of the inverse distance to the next singularity:
+    // measured 40.
     const double scale = 100.0;
     expect_equal(log(exp(x)), x, scale, "log exp");
     expect_equal(sin(asin(x)), x, 1e4 * scale, "sin asin");
@@ -143,7 +144,8 @@ Vector3T<T> drag_and_lift(const Vector3T<T>& v) {
 TEST(Pack, LanesAreScalars) {
   alignas(64) double x[kPackSize], y[kPackSize], z[kPackSize];
   for (int i = 0; i < kPackSize; ++i) x[i] = 1.0 + i, y[i] = 0.5 * i, z[i] = -2.0 + i;
-  const Vector3T<Pack> packed = drag_and_lift<Pack>({Pack::load_aligned(x), Pack::load_aligned(y), Pack::load_aligned(z)});
+  const Vector3T<Pack> packed =
+      drag_and_lift<Pack>({Pack::load_aligned(x), Pack::load_aligned(y), Pack::load_aligned(z)});
   for (int i = 0; i < kPackSize; ++i) {
     const Vector3 single = drag_and_lift<double>({x[i], y[i], z[i]});
     for (int k = 0; k < 3; ++k)

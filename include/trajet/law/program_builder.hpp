@@ -46,8 +46,8 @@ class ProgramBuilder {
   /// numerator / denominator, scalar or vector by scalar: a force and a mass make an acceleration.
   Value divide(const Value& numerator, const Value& denominator);
 
-  /// The node of an operation on nodes of this builder, as a Term uses it. A product with the constant 0 is 0, as that of a
-  /// component of a vector.
+  /// The node of an operation on nodes of this builder, as a Term uses it. A product with the constant 0 is 0, as that
+  /// of a component of a vector.
   int combine(Opcode opcode, int a, int b = 0);
   int constant_node(double value);
 

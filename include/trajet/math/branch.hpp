@@ -15,8 +15,8 @@ struct BranchTime {
   double sign_after;  ///< behind the change
 };
 
-/// The first time from 0 to `duration` (of either sign) at which the function f(t) = sum_k series[k] t^k leaves the sign
-/// that a law has counted on.
+/// The first time from 0 to `duration` (of either sign) at which the function f(t) = sum_k series[k] t^k leaves the
+/// sign that a law has counted on.
 ///
 /// \param sign            -1, 0 or 1: the sign counted on. 0 stays true only of a function that vanishes.
 /// \param starts_at_zero  f(0) is zero but for rounding: the search has just come from a root there.

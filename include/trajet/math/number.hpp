@@ -7,8 +7,8 @@
 
 namespace trajet {
 
-/// What a number type offers besides + - * / and the functions of <cmath>: comparisons whose answer is as rich as the type
-/// needs (a bool, a mask of lanes, "undecided"), and `where`, which takes that answer.
+/// What a number type offers besides + - * / and the functions of <cmath>: comparisons whose answer is as rich as the
+/// type needs (a bool, a mask of lanes, "undecided"), and `where`, which takes that answer.
 ///
 /// Here for double. Series, Pack and Interval add their overloads beside the type. A law that calls these instead of
 /// `if` and `?:` runs on all of them.

@@ -41,7 +41,15 @@ struct Eigen::NumTraits<trajet::Pack> : Eigen::GenericNumTraits<trajet::Pack> {
   using NonInteger = trajet::Pack;
   using Nested = trajet::Pack;
   using Literal = double;
-  enum { IsComplex = 0, IsInteger = 0, IsSigned = 1, RequireInitialization = 1, ReadCost = 1, AddCost = 1, MulCost = 1 };
+  enum {
+    IsComplex = 0,
+    IsInteger = 0,
+    IsSigned = 1,
+    RequireInitialization = 1,
+    ReadCost = 1,
+    AddCost = 1,
+    MulCost = 1
+  };
   static Real epsilon() { return Real(NumTraits<double>::epsilon()); }
   static Real dummy_precision() { return Real(NumTraits<double>::dummy_precision()); }
   static int digits10() { return NumTraits<double>::digits10(); }

@@ -10,9 +10,9 @@ namespace trajet {
 
 /// A number type that computes no value but the degree in time: what a law makes of polynomials.
 ///
-/// A law evaluated on it tells whether all its solutions are polynomials, and of which degree, so that a power series is
-/// known to end rather than seen to have small coefficients. Anything that is not + - * of polynomials, or a quotient by a
-/// constant, has no degree; so has whatever depends on a comparison.
+/// A law evaluated on it tells whether all its solutions are polynomials, and of which degree, so that a power series
+/// is known to end rather than seen to have small coefficients. Anything that is not + - * of polynomials, or a
+/// quotient by a constant, has no degree; so has whatever depends on a comparison.
 class PolynomialDegree {
  public:
   static constexpr int kNone = std::numeric_limits<int>::max();
@@ -34,7 +34,9 @@ class PolynomialDegree {
   PolynomialDegree& operator*=(PolynomialDegree b) { return *this = *this * b; }
   PolynomialDegree& operator/=(PolynomialDegree b) { return *this = *this / b; }
   friend PolynomialDegree operator-(PolynomialDegree a) { return a; }
-  friend PolynomialDegree operator+(PolynomialDegree a, PolynomialDegree b) { return of(std::max(a.degree_, b.degree_)); }
+  friend PolynomialDegree operator+(PolynomialDegree a, PolynomialDegree b) {
+    return of(std::max(a.degree_, b.degree_));
+  }
   friend PolynomialDegree operator-(PolynomialDegree a, PolynomialDegree b) { return a + b; }
   friend PolynomialDegree operator*(PolynomialDegree a, PolynomialDegree b) {
     return of(a.degree_ == kNone || b.degree_ == kNone ? kNone : a.degree_ + b.degree_);
@@ -49,8 +51,8 @@ class PolynomialDegree {
 };
 
 /// The answer to a comparison of two PolynomialDegrees: known only between constants, which a law need not tell.
-/// As a bool it is false, and what a law computes behind an `if` is then one branch of several: `LawExpansion` sees to that
-/// by never calling a law polynomial whose comparisons it has met.
+/// As a bool it is false, and what a law computes behind an `if` is then one branch of several: `LawExpansion` sees to
+/// that by never calling a law polynomial whose comparisons it has met.
 struct DegreeComparison {
   explicit operator bool() const {
     met = true;
@@ -93,7 +95,9 @@ TRAJET_NO_DEGREE(sign)
 TRAJET_NO_DEGREE(floor)
 #undef TRAJET_NO_DEGREE
 inline PolynomialDegree square(PolynomialDegree x) { return x * x; }
-inline PolynomialDegree atan2(PolynomialDegree y, PolynomialDegree x) { return PolynomialDegree::transcendental(y + x); }
+inline PolynomialDegree atan2(PolynomialDegree y, PolynomialDegree x) {
+  return PolynomialDegree::transcendental(y + x);
+}
 inline PolynomialDegree min(PolynomialDegree a, PolynomialDegree b) { return PolynomialDegree::transcendental(a + b); }
 inline PolynomialDegree max(PolynomialDegree a, PolynomialDegree b) { return PolynomialDegree::transcendental(a + b); }
 inline PolynomialDegree pow(PolynomialDegree x, PolynomialDegree y) { return PolynomialDegree::transcendental(x + y); }
@@ -109,5 +113,13 @@ struct Eigen::NumTraits<trajet::PolynomialDegree> : Eigen::GenericNumTraits<doub
   using NonInteger = Real;
   using Nested = Real;
   using Literal = double;
-  enum { IsComplex = 0, IsInteger = 0, IsSigned = 1, RequireInitialization = 1, ReadCost = 1, AddCost = 1, MulCost = 1 };
+  enum {
+    IsComplex = 0,
+    IsInteger = 0,
+    IsSigned = 1,
+    RequireInitialization = 1,
+    ReadCost = 1,
+    AddCost = 1,
+    MulCost = 1
+  };
 };

@@ -133,14 +133,19 @@ TRAJET_INLINE void tanh(const T* x, T* t, T* w, Order n) {
 /// y = asin x, n >= 1, with r = sqrt(1 - x^2):  sum_{k=1..n} k y[k] r[n - k] = n x[n]
 template <class T, class Order>
 TRAJET_INLINE void asin(const T* x, T* y, T* r, Order n) {
-  y[n] = (x[n] - derivative_convolution(static_cast<const T*>(y), static_cast<const T*>(r), n - 1, n) * (Factor<T>(1.0) / n)) / r[0];
-  r[n] = (-square<T>(x, n) - convolution(static_cast<const T*>(r), static_cast<const T*>(r), 1, n - 1, n)) / (2.0 * r[0]);
+  y[n] = (x[n] -
+          derivative_convolution(static_cast<const T*>(y), static_cast<const T*>(r), n - 1, n) * (Factor<T>(1.0) / n)) /
+         r[0];
+  r[n] =
+      (-square<T>(x, n) - convolution(static_cast<const T*>(r), static_cast<const T*>(r), 1, n - 1, n)) / (2.0 * r[0]);
 }
 
 /// y = atan x, n >= 1, with w = 1 + x^2:  sum_{k=1..n} k y[k] w[n - k] = n x[n]
 template <class T, class Order>
 TRAJET_INLINE void atan(const T* x, T* y, T* w, Order n) {
-  y[n] = (x[n] - derivative_convolution(static_cast<const T*>(y), static_cast<const T*>(w), n - 1, n) * (Factor<T>(1.0) / n)) / w[0];
+  y[n] = (x[n] -
+          derivative_convolution(static_cast<const T*>(y), static_cast<const T*>(w), n - 1, n) * (Factor<T>(1.0) / n)) /
+         w[0];
   w[n] = square<T>(x, n);
 }
 
@@ -148,11 +153,13 @@ TRAJET_INLINE void atan(const T* x, T* y, T* w, Order n) {
 template <class T, class Order>
 TRAJET_INLINE void atan2(const T* y, const T* x, T* a, T* w, Order n) {
   const T wedge = derivative_convolution(y, x, n, n) - derivative_convolution(x, y, n, n);
-  a[n] = (wedge - derivative_convolution(static_cast<const T*>(a), static_cast<const T*>(w), n - 1, n)) * (Factor<T>(1.0) / n) / w[0];
+  a[n] = (wedge - derivative_convolution(static_cast<const T*>(a), static_cast<const T*>(w), n - 1, n)) *
+         (Factor<T>(1.0) / n) / w[0];
   w[n] = square<T>(x, n) + square<T>(y, n);
 }
 
-/// s = |(x, y, z)|:  s[n] = ((x^2 + y^2 + z^2)[n] - sum_{k=1..n-1} s[k] s[n - k]) / (2 s[0]),  `half_inverse` = 1 / (2 s[0])
+/// s = |(x, y, z)|:  s[n] = ((x^2 + y^2 + z^2)[n] - sum_{k=1..n-1} s[k] s[n - k]) / (2 s[0]),  `half_inverse` = 1 / (2
+/// s[0])
 ///
 /// Where the vector vanishes like t^m, its length is t^m times the length of the vector divided by t^m, for t >= 0:
 /// a body that starts from rest has a speed with a power series.

@@ -8,11 +8,12 @@
 
 namespace trajet {
 
-/// The power series of everything that a law computes, one slot of coefficients per operation, filled one order at a time.
+/// The power series of everything that a law computes, one slot of coefficients per operation, filled one order at a
+/// time.
 ///
-/// A law is called once per order on `Replay` numbers. Each operation, in the order in which the law performs them, owns the
-/// next slot and computes only its coefficient of the current order, from the slots of its operands: an expansion of order N
-/// costs O(N^2) per operation. Once the law is inlined, the slots' addresses are constants.
+/// A law is called once per order on `Replay` numbers. Each operation, in the order in which the law performs them,
+/// owns the next slot and computes only its coefficient of the current order, from the slots of its operands: an
+/// expansion of order N costs O(N^2) per operation. Once the law is inlined, the slots' addresses are constants.
 template <class T>
 class ReplayTape {
  public:
@@ -50,7 +51,6 @@ struct ReplayPass {
   int next_branch = 0;
   /// Slots of the tape. An order-0 pass that needs more only counts them, in `next_slot`, and is run again.
   int capacity;
-
 };
 
 template <class T, int N>
@@ -144,11 +144,8 @@ class Replay {
     if (a.is_constant() && b.is_constant()) return Replay(a.constant_ * b.constant_);
     if (a.is_constant()) return b.times(a.constant_);
     if (b.is_constant()) return a.times(b.constant_);
-    if (a.slot_ == b.slot_)
-      return record(a, [&](T*) { return recurrence::square<T>(a.coefficients(), kOrder); });
-    return record(a, [&](T*) {
-      return recurrence::multiply<T>(a.coefficients(), b.coefficients(), kOrder);
-    });
+    if (a.slot_ == b.slot_) return record(a, [&](T*) { return recurrence::square<T>(a.coefficients(), kOrder); });
+    return record(a, [&](T*) { return recurrence::multiply<T>(a.coefficients(), b.coefficients(), kOrder); });
   }
   friend TRAJET_INLINE Replay operator/(const Replay& a, const Replay& b) {
     if (b.is_constant()) {
@@ -165,9 +162,15 @@ class Replay {
   // Functions of two numbers are friends, so that either may be a plain number.
   friend TRAJET_INLINE bool operator<(const Replay& a, const Replay& b) { return detail::comparison_sign(a, b) < 0.0; }
   friend TRAJET_INLINE bool operator>(const Replay& a, const Replay& b) { return detail::comparison_sign(a, b) > 0.0; }
-  friend TRAJET_INLINE bool operator<=(const Replay& a, const Replay& b) { return detail::comparison_sign(a, b) <= 0.0; }
-  friend TRAJET_INLINE bool operator>=(const Replay& a, const Replay& b) { return detail::comparison_sign(a, b) >= 0.0; }
-  friend TRAJET_INLINE bool operator==(const Replay& a, const Replay& b) { return detail::comparison_sign(a, b) == 0.0; }
+  friend TRAJET_INLINE bool operator<=(const Replay& a, const Replay& b) {
+    return detail::comparison_sign(a, b) <= 0.0;
+  }
+  friend TRAJET_INLINE bool operator>=(const Replay& a, const Replay& b) {
+    return detail::comparison_sign(a, b) >= 0.0;
+  }
+  friend TRAJET_INLINE bool operator==(const Replay& a, const Replay& b) {
+    return detail::comparison_sign(a, b) == 0.0;
+  }
   friend TRAJET_INLINE bool less(const Replay& a, const Replay& b) { return a < b; }
   friend TRAJET_INLINE bool less_equal(const Replay& a, const Replay& b) { return a <= b; }
   friend TRAJET_INLINE bool equal(const Replay& a, const Replay& b) { return a == b; }
@@ -224,5 +227,13 @@ struct Eigen::NumTraits<trajet::Replay<T, N>> : Eigen::GenericNumTraits<double> 
   using NonInteger = Real;
   using Nested = Real;
   using Literal = double;
-  enum { IsComplex = 0, IsInteger = 0, IsSigned = 1, RequireInitialization = 1, ReadCost = 1, AddCost = 4, MulCost = 16 };
+  enum {
+    IsComplex = 0,
+    IsInteger = 0,
+    IsSigned = 1,
+    RequireInitialization = 1,
+    ReadCost = 1,
+    AddCost = 4,
+    MulCost = 16
+  };
 };

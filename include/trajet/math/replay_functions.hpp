@@ -28,8 +28,8 @@ template <class T, int N>
 TRAJET_INLINE Replay<T, N> norm3(const Replay<T, N>& x, const Replay<T, N>& y, const Replay<T, N>& z) {
   if (x.is_constant() || y.is_constant() || z.is_constant()) return sqrt(x * x + y * y + z * z);
   const Replay<T, N> norm = Replay<T, N>::record(x, [&](T* s) {
-    return recurrence::norm3<T>(x.coefficients(), y.coefficients(), z.coefficients(), s,
-                                s[ReplayTape<T>::kStride - 1], Replay<T, N>::kOrder);
+    return recurrence::norm3<T>(x.coefficients(), y.coefficients(), z.coefficients(), s, s[ReplayTape<T>::kStride - 1],
+                                Replay<T, N>::kOrder);
   });
   detail::branch_sign(norm);
   return norm;
@@ -223,9 +223,8 @@ template <class T, int N>
 TRAJET_INLINE Replay<T, N> abs(const Replay<T, N>& x) {
   if (x.is_constant()) return std::abs(x.constant());
   const double decided = detail::branch_sign(x);
-  return Replay<T, N>::record(x, [&](T*) {
-    return detail::side_after(decided, x.coefficients(), N) < 0.0 ? -x.newest() : x.newest();
-  });
+  return Replay<T, N>::record(
+      x, [&](T*) { return detail::side_after(decided, x.coefficients(), N) < 0.0 ? -x.newest() : x.newest(); });
 }
 /// Piecewise constant: the value on the branch taken.
 template <class T, int N>

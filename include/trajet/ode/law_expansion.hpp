@@ -14,8 +14,9 @@ namespace trajet {
 
 /// Taylor expansion of the solutions of dq/dt = law(t, q), a law that is a C++ callable generic in its number type.
 ///
-/// `law(t, q, dq)` gets a scalar t and Eigen vectors q and dq, of double or of Replay numbers. It may branch on comparisons;
-/// what it computes must depend on nothing else that changes. `T`, double or long double, is the type of the coefficients.
+/// `law(t, q, dq)` gets a scalar t and Eigen vectors q and dq, of double or of Replay numbers. It may branch on
+/// comparisons; what it computes must depend on nothing else that changes. `T`, double or long double, is the type of
+/// the coefficients.
 template <class Law, int Dim, class T = double>
 class LawExpansion {
  public:
@@ -72,7 +73,8 @@ class LawExpansion {
     constexpr int kHighest = ReplayTape<T>::kMaxOrder;
     DegreeState q(dimension()), dq(dimension());
     for (int i = 0; i < dimension(); ++i) q[i] = PolynomialDegree::of(0);
-    // each pass carries degrees one operation of integration further: a polynomial of degree d is complete after d passes
+    // each pass carries degrees one operation of integration further: a polynomial of degree d is complete after d
+    // passes
     for (int pass = 0; pass <= kHighest + 1; ++pass) {
       for (int i = 0; i < dimension(); ++i) dq[i] = PolynomialDegree();
       DegreeComparison::met = false;

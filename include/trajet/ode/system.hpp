@@ -29,9 +29,9 @@ class System {
   /// The same in extended precision.
   virtual void expand(double t, const long double* q, int order, long double* coefficients) = 0;
 
-  /// Whether the last expansion, in either precision, stays the solution's up to `duration` (s, either sign) later: the time until the law
-  /// takes another branch (a comparison, abs, sign, min, max, floor, the next interval of a table), or `duration` if it
-  /// does not. The next expansion, if it starts there, takes the branch behind it.
+  /// Whether the last expansion, in either precision, stays the solution's up to `duration` (s, either sign) later: the
+  /// time until the law takes another branch (a comparison, abs, sign, min, max, floor, the next interval of a table),
+  /// or `duration` if it does not. The next expansion, if it starts there, takes the branch behind it.
   virtual double duration_until_branch(double duration) = 0;
 
   /// The degree in time of every solution if the law makes it a polynomial whatever the state, else a negative number.

@@ -23,17 +23,17 @@ inline constexpr int kMaxTaylorOrder = ReplayTape<double>::kMaxOrder;
 
 /// The order of a power series that meets a relative tolerance at the least cost.
 ///
-/// The step is h = rho tolerance^(1/p) for a radius of convergence rho, [JorbaZou2005] §3.2. Were the cost of a step p^2, the
-/// best order would be -ln(tolerance) / 2; were it p, twice that. Most of a step's time goes by in chains of dependent
-/// operations, as long as p, the rest in sums of length p: measured on laws of 10 to 50 operations, compiled and interpreted,
-/// the least time lies at 3 - 0.6 ln(tolerance), from 1e-4 to 1e-15.
+/// The step is h = rho tolerance^(1/p) for a radius of convergence rho, [JorbaZou2005] §3.2. Were the cost of a step
+/// p^2, the best order would be -ln(tolerance) / 2; were it p, twice that. Most of a step's time goes by in chains of
+/// dependent operations, as long as p, the rest in sums of length p: measured on laws of 10 to 50 operations, compiled
+/// and interpreted, the least time lies at 3 - 0.6 ln(tolerance), from 1e-4 to 1e-15.
 inline int taylor_order(double rtol) {
   const double tolerance = std::clamp(rtol, std::numeric_limits<double>::epsilon() / 2, 1e-2);
   return std::min(kMaxTaylorOrder, static_cast<int>(std::ceil(3.0 - 0.6 * std::log(tolerance))));
 }
 
-/// The series method: each step is the Taylor polynomial of the solution, with exact derivatives, as long as its last terms
-/// allow. The course's method for known derivatives (F10), for any law and any order.
+/// The series method: each step is the Taylor polynomial of the solution, with exact derivatives, as long as its last
+/// terms allow. The course's method for known derivatives (F10), for any law and any order.
 ///
 /// `Expansion` gives the coefficients (`LawExpansion` for a C++ law, `SystemExpansion` for a scene). The step h is the
 /// largest for which the last two terms are within the tolerance of every component, [JorbaZou2005] §3.2 (3-8) with the
@@ -43,7 +43,8 @@ inline int taylor_order(double rtol) {
 ///
 /// - Where the solutions are polynomials (constant acceleration), the step is the whole run and exact.
 /// - Where the law takes another branch (a comparison, abs, …), the step ends there.
-/// - Where there is no power series (a speed that vanishes on a curve), a step of Dormand and Prince's method leads past.
+/// - Where there is no power series (a speed that vanishes on a curve), a step of Dormand and Prince's method leads
+/// past.
 /// - An expansion in extended precision carries the state in it from step to step: what a problem makes of rounding is
 ///   less by the ratio of the precisions.
 template <class Expansion>
@@ -137,8 +138,8 @@ class TaylorStepper {
   /// A step this much shorter than the last one is compared with what Runge-Kutta can do: near a singular point of the
   /// series, not of the solution, that is more.
   static constexpr double kShortStep = 1e-3;
-  /// The longest step, as a part of the way, of a series whose last terms are zero though the solution is no polynomial:
-  /// what is to come may be too small to be seen from here.
+  /// The longest step, as a part of the way, of a series whose last terms are zero though the solution is no
+  /// polynomial: what is to come may be too small to be seen from here.
   static constexpr double kBlindStep = 1.0 / 64.0;
   static constexpr double kLogZero = -1023.0;  // what rough_log2 makes of zero
 
@@ -164,11 +165,12 @@ class TaylorStepper {
     double log_step = -std::max(log_last * inverse_order_, log_last_but_one * inverse_order_less_one_);
     // exp(-0.7 / (p - 1)) halves the last terms, so that those left out add up to less than the tolerance too
     log_step -= 0.7 * std::numbers::log2e * inverse_order_less_one_;
-    // Terms that matter must fall with their order. If those of the middle are below the tolerance, so that the last ones
-    // have risen to it, what follows rises further, as before a pulse: then no step beyond the radius of convergence,
-    // rho = (e_m / e_p)^(1 / (p - m)).
+    // Terms that matter must fall with their order. If those of the middle are below the tolerance, so that the last
+    // ones have risen to it, what follows rises further, as before a pulse: then no step beyond the radius of
+    // convergence, rho = (e_m / e_p)^(1 / (p - m)).
     const int middle = order_ / 2;
-    const double log_middle = detail::rough_log2(std::max(weighted_coefficient(middle), weighted_coefficient(middle - 1)));
+    const double log_middle =
+        detail::rough_log2(std::max(weighted_coefficient(middle), weighted_coefficient(middle - 1)));
     if (log_middle + middle * log_step < 0.0)
       log_step = std::min(log_step, (log_middle - std::max(log_last, log_last_but_one)) / (order_ - middle));
     double step = detail::rough_exp2(std::clamp(log_step, -900.0, 900.0));
@@ -227,14 +229,16 @@ class TaylorStepper {
 
   /// One step of Dormand and Prince's method, or the series' own `step` where that is the longer one.
   StepStatus advance_by_runge_kutta(double t_limit, double step) {
-    if (!runge_kutta_) runge_kutta_.emplace(Rate{&expansion_}, StepOptions{.rtol = options_.rtol, .atol = options_.atol});
+    if (!runge_kutta_)
+      runge_kutta_.emplace(Rate{&expansion_}, StepOptions{.rtol = options_.rtol, .atol = options_.atol});
     const StepStatistics before = runge_kutta_->statistics();
     runge_kutta_->start(t_, state());
     const StepStatus status = runge_kutta_->advance(t_limit);
     statistics_.law_evaluations += runge_kutta_->statistics().law_evaluations - before.law_evaluations;
     statistics_.rejected_steps += runge_kutta_->statistics().rejected_steps - before.rejected_steps;
     const bool series_is_longer = std::abs(step) >= std::abs(runge_kutta_->time() - t_);
-    if (std::abs(step) >= smallest_step(t_) && (status != StepStatus::ok || series_is_longer)) return accept(t_limit, step);
+    if (std::abs(step) >= smallest_step(t_) && (status != StepStatus::ok || series_is_longer))
+      return accept(t_limit, step);
     if (status != StepStatus::ok) return status;
     previous_step_ = std::abs(runge_kutta_->time() - t_);
     t_ = runge_kutta_->time();

@@ -17,8 +17,8 @@ namespace trajet {
 /// A scene: everything that a motion is made of, as plain data. The scene file and C++ programs fill the same struct.
 ///
 /// Every quantity is an Expression over the parameters, SI units, world frame W; only laws (`acceleration`, `force`,
-/// `torque`, `angular_acceleration`, `position_rate`, `rate`, `when`, `set`) may also use t and the states. `World` gives
-/// it numbers and checks it.
+/// `torque`, `angular_acceleration`, `position_rate`, `rate`, `when`, `set`) may also use t and the states. `World`
+/// gives it numbers and checks it.
 
 struct NamedExpression {
   std::string name;
@@ -41,9 +41,9 @@ struct MethodOptions {
   int order = 0;                   ///< series methods; 0: the method chooses
   SourceLocation order_where{};
   long max_steps = 1'000'000;
-  Locator locate = Locator::polynomial;  ///< how the times of impacts are found
+  Locator locate = Locator::polynomial;                                ///< how the times of impacts are found
   OrientationWay orientation = OrientationWay::quaternion_normalized;  ///< how orientations are carried
-  SourceLocation where{};          ///< of the name, or of the table
+  SourceLocation where{};                                              ///< of the name, or of the table
   SourceLocation orientation_where{};
 };
 
@@ -71,8 +71,8 @@ struct MeshShape {
   Expression scale = 1.0;  ///< of the mesh's coordinates, m
 };
 /// Solids have their centre of mass at the origin of the body's frame: hulls and meshes are moved there.
-using BodyShape =
-    std::variant<PointShape, BallShape, CuboidShape, CylinderShape, CapsuleShape, SoccerBallShape, HullShape, MeshShape>;
+using BodyShape = std::variant<PointShape, BallShape, CuboidShape, CylinderShape, CapsuleShape, SoccerBallShape,
+                               HullShape, MeshShape>;
 
 /// Exactly one of the three, or none for the identity.
 struct OrientationDefinition {
@@ -86,18 +86,19 @@ struct OrientationDefinition {
 struct BodyDefinition {
   std::string name;
   BodyShape shape = PointShape{};
-  Expression position = Vector3(0, 0, 0);  ///< p_WB at the start, m
-  Expression velocity = Vector3(0, 0, 0);  ///< v_WB at the start, m/s
-  std::optional<Expression> acceleration;  ///< m/s^2; or `force` with `mass`; neither: uniform motion
-  std::optional<Expression> force;         ///< N
-  std::optional<Expression> mass;          ///< kg, may depend on t and the states
-  std::optional<Expression> position_rate; ///< dr/dt in m/s; default: the velocity
+  Expression position = Vector3(0, 0, 0);   ///< p_WB at the start, m
+  Expression velocity = Vector3(0, 0, 0);   ///< v_WB at the start, m/s
+  std::optional<Expression> acceleration;   ///< m/s^2; or `force` with `mass`; neither: uniform motion
+  std::optional<Expression> force;          ///< N
+  std::optional<Expression> mass;           ///< kg, may depend on t and the states
+  std::optional<Expression> position_rate;  ///< dr/dt in m/s; default: the velocity
 
-  OrientationDefinition orientation{};  ///< at the start
+  OrientationDefinition orientation{};              ///< at the start
   std::optional<Expression> angular_velocity;       ///< w_WB_W at the start, rad/s; or:
   std::optional<Expression> angular_velocity_body;  ///< w_WB_B
-  std::optional<Expression> angular_acceleration;       ///< rad/s^2 in the world's frame; or:
-  std::optional<Expression> angular_acceleration_body;  ///< in the body's; neither: Euler's equations, if it has an inertia
+  std::optional<Expression> angular_acceleration;   ///< rad/s^2 in the world's frame; or:
+  std::optional<Expression>
+      angular_acceleration_body;          ///< in the body's; neither: Euler's equations, if it has an inertia
   std::optional<Expression> torque;       ///< N m about the centre of mass, in the world's frame
   std::optional<Expression> torque_body;  ///< N m, in the body's frame; the two add up
   std::optional<Expression> force_point;  ///< where the force acts, in the body's frame, m; default: the centre of mass
@@ -136,8 +137,8 @@ struct BoxDefinition {
   Expression center, size;  ///< size: full edge lengths, m
   OrientationDefinition orientation{};
 };
-using ObstacleShape = std::variant<PlaneDefinition, DiskDefinition, RectangleDefinition, TriangleDefinition, SphereDefinition,
-                                   BoxDefinition>;
+using ObstacleShape = std::variant<PlaneDefinition, DiskDefinition, RectangleDefinition, TriangleDefinition,
+                                   SphereDefinition, BoxDefinition>;
 
 enum class OnHit { stop, bounce, pass };
 
@@ -166,7 +167,8 @@ struct EventDefinition {
   Expression when;
   CrossingDirection direction = CrossingDirection::any;
   EventAction action = EventAction::record;
-  /// For `set`: new values, all computed from the state before. A name is an extra state or a part of a body: `ball.v`, `ball.vz`.
+  /// For `set`: new values, all computed from the state before. A name is an extra state or a part of a body: `ball.v`,
+  /// `ball.vz`.
   std::vector<NamedExpression> set;
   SourceLocation where{};
 };

@@ -16,16 +16,16 @@ namespace trajet {
 
 /// A scene with numbers: all names resolved, all values checked, all laws compiled. What the simulation runs.
 ///
-/// Bodies, extra states and events that refer to each other form a group, which is integrated together; groups know nothing
-/// of each other and keep steps of their own. The state of a group is, for each of its bodies, position and velocity
-/// (m, m/s; world frame) and, if it turns, orientation and angular velocity (rad/s), then its extra states. Programs take
-/// t and that state.
+/// Bodies, extra states and events that refer to each other form a group, which is integrated together; groups know
+/// nothing of each other and keep steps of their own. The state of a group is, for each of its bodies, position and
+/// velocity (m, m/s; world frame) and, if it turns, orientation and angular velocity (rad/s), then its extra states.
+/// Programs take t and that state.
 struct World {
   /// How a body turns.
   struct Rotation {
     OrientationLayout layout;
-    int offset = 0;                  ///< of the orientation in the group's state; the angular velocity follows it
-    bool is_free = false;            ///< no torque, or a constant angular velocity: there is a closed form
+    int offset = 0;                    ///< of the orientation in the group's state; the angular velocity follows it
+    bool is_free = false;              ///< no torque, or a constant angular velocity: there is a closed form
     std::optional<Matrix3> inertia{};  ///< about the centre of mass, body's frame, kg m^2; none: kinematics
   };
 
@@ -44,10 +44,10 @@ struct World {
     TriangleMesh surface;
     std::vector<Point> points;
     int group = 0;
-    int offset = 0;                      ///< of the position in the group's state; the velocity follows it
+    int offset = 0;                       ///< of the position in the group's state; the velocity follows it
     Quaternion q_WB{1.0, 0.0, 0.0, 0.0};  ///< at the start, unit
-    std::optional<Rotation> rotation;    ///< none: it does not turn
-    std::optional<Program> mass;         ///< kg, one output
+    std::optional<Rotation> rotation;     ///< none: it does not turn
+    std::optional<Program> mass;          ///< kg, one output
     SourceLocation where{};
   };
 
@@ -85,8 +85,8 @@ struct World {
   struct ClosedForm {
     std::string name;  ///< `ball.r`, `ball.v` or an extra state
     int group = 0;
-    int offset = 0;    ///< of its first component in the group's state
-    Program value;     ///< of t alone; one output or three
+    int offset = 0;  ///< of its first component in the group's state
+    Program value;   ///< of t alone; one output or three
     SourceLocation where{};
   };
 

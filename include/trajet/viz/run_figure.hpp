@@ -1,8 +1,8 @@
 #pragma once
 
+#include "trajet/sim/motion_record.hpp"
 #include "trajet/sim/run_result.hpp"
 #include "trajet/viz/figure.hpp"
-#include "trajet/sim/motion_record.hpp"
 
 namespace trajet {
 

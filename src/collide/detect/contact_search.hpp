@@ -16,8 +16,8 @@ struct GapContact {
   double tau = 0.0;
   double root_error = 0.0;
   int side_before = 0;
-  int side_after = 0;          ///< separated: the side at the end, 0 unknown
-  bool stays_at_zero = false;  ///< separated: the gap is zero all the time
+  int side_after = 0;             ///< separated: the side at the end, 0 unknown
+  bool stays_at_zero = false;     ///< separated: the gap is zero all the time
   bool stays_in_contact = false;  ///< separated: no new contact, the handled one lasts
 };
 

@@ -17,8 +17,7 @@ ContactResult solid_contact(const G& gap_at, const MovingBall& ball, const Conta
   const auto at_time = [&gap_at](const IntervalJet&, const Vector3T<IntervalJet>& x) { return gap_at(x); };
   const ComposedFunction gap(ball.path, at_time, begin, end, handled_tolerance(memory, ball));
   constexpr bool kIsSolid = true;
-  const auto contact =
-      search_gap(gap, ball, kIsSolid, memory, is_handled(memory, ball), [](double) { return true; });
+  const auto contact = search_gap(gap, ball, kIsSolid, memory, is_handled(memory, ball), [](double) { return true; });
   return report(gap, contact, ball, kIsSolid, place);
 }
 

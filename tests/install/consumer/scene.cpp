@@ -18,9 +18,11 @@ name = "ground"
 shape = "plane"
 point = [0, 0, 0]
 normal = [0, 0, 1]
-)", "stone.toml");
+)",
+                                                  "stone.toml");
   const trajet::RunResult result = trajet::run(scene);
   const bool reported = trajet::report_json(result).find("\"with\": \"ground\"") != std::string::npos;
   // 45 m = g t^2 / 2 with g = 10 m/s^2: t = 3 s, exactly.
-  std::printf("%zu impact at %g s, %s\n", result.impacts.size(), result.end_time, reported ? "reported" : "not reported");
+  std::printf("%zu impact at %g s, %s\n", result.impacts.size(), result.end_time,
+              reported ? "reported" : "not reported");
 }
