@@ -23,17 +23,18 @@ export const arrowPixels = (size: number): number => Math.min(110, 0.2 * size);
 const kAxisPixels = 45;
 const kDotPixels = 9;
 
+/** A white disk; made by hand because a canvas for it would be one more thing that the graphics processor sets up. */
 const dotTexture = (() => {
-  let texture: THREE.Texture | undefined;
+  const kSide = 32;
+  let texture: THREE.DataTexture | undefined;
   return (): THREE.Texture => {
     if (texture) return texture;
-    const canvas = document.createElement("canvas");
-    canvas.width = canvas.height = 64;
-    const context = canvas.getContext("2d")!;
-    context.fillStyle = "white";
-    context.arc(32, 32, 30, 0, 2 * Math.PI);
-    context.fill();
-    texture = new THREE.CanvasTexture(canvas);
+    const isInside = (i: number): boolean =>
+      Math.hypot((i % kSide) - (kSide - 1) / 2, Math.floor(i / kSide) - (kSide - 1) / 2) < (kSide - 1) / 2;
+    const texels = Array.from({ length: kSide * kSide }, (_, i) => [255, 255, 255, isInside(i) ? 255 : 0]);
+    texture = new THREE.DataTexture(new Uint8Array(texels.flat()), kSide, kSide);
+    texture.minFilter = texture.magFilter = THREE.LinearFilter;
+    texture.needsUpdate = true;
     return texture;
   };
 })();
@@ -114,11 +115,7 @@ export class Actor {
 
     const geometry = bodyGeometry(motion.data.shape, color, motion.turns);
     if (geometry) {
-      const material = new THREE.MeshLambertMaterial({
-        vertexColors: true,
-        flatShading: motion.data.shape.kind !== "sphere",
-      });
-      this.body3d.add(new THREE.Mesh(geometry, material));
+      this.body3d.add(new THREE.Mesh(geometry, new THREE.MeshLambertMaterial({ vertexColors: true })));
       if (motion.data.shape.kind !== "sphere")
         this.body3d.add(
           new THREE.LineSegments(

@@ -19,7 +19,9 @@ export class Scenery {
   readonly labels: LabelSpec[] = [];
   /** m; the side of a square of the grid. */
   readonly spacing: number;
-  private readonly surface: THREE.MeshLambertMaterial;
+  /** Of obstacles that are closed, which are seen from outside, and of flat ones. */
+  private readonly closed: THREE.MeshLambertMaterial;
+  private readonly flat: THREE.MeshLambertMaterial;
   private readonly ground: THREE.MeshBasicMaterial;
   private readonly edges: THREE.LineBasicMaterial;
   private readonly lines: THREE.LineBasicMaterial;
@@ -31,11 +33,12 @@ export class Scenery {
     const size = frame.box.getSize(new THREE.Vector3());
     this.spacing = roundSpacing(Math.max(size.x, size.y, size.z) / 10);
     const offset = { polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1 };
-    this.surface = new THREE.MeshLambertMaterial({ side: THREE.DoubleSide, ...offset });
-    this.surface.transparent = true;
-    this.surface.opacity = 0.8;
+    const pane = { transparent: true, opacity: 0.8, ...offset };
+    this.closed = new THREE.MeshLambertMaterial(pane);
+    this.flat = new THREE.MeshLambertMaterial({ side: THREE.DoubleSide, forceSinglePass: true, ...pane });
     this.ground = new THREE.MeshBasicMaterial({
       side: THREE.DoubleSide,
+      forceSinglePass: true,
       transparent: true,
       opacity: 0.5,
       depthWrite: false,
@@ -62,7 +65,7 @@ export class Scenery {
   }
 
   applyTheme(): void {
-    this.surface.color.set(cssColor("--obstacle"));
+    for (const surface of [this.closed, this.flat]) surface.color.set(cssColor("--obstacle"));
     this.edges.color.set(cssColor("--obstacle-edge"));
     this.ground.color.set(cssColor("--ground"));
     this.lines.color.set(cssColor("--grid"));
@@ -71,7 +74,8 @@ export class Scenery {
   private addObstacle(name: string, shape: Exclude<ObstacleShape, { kind: "plane" }>): void {
     const geometry = obstacleGeometry(shape);
     const { scale } = this.frame;
-    const mesh = new THREE.Mesh(geometry, this.surface);
+    const isClosed = shape.kind === "sphere" || shape.kind === "box";
+    const mesh = new THREE.Mesh(geometry, isClosed ? this.closed : this.flat);
     mesh.scale.setScalar(scale);
     const center: Vector = shape.kind === "triangle" ? shape.corners[0] : shape.center;
     mesh.position.copy(this.frame.toView(center));

@@ -52,6 +52,8 @@ export class Stage {
   ) {
     this.renderer = new THREE.WebGLRenderer({ antialias: true });
     this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
+    // Asking after errors would make the page wait for every program of the graphics processor.
+    this.renderer.debug.checkShaderErrors = false;
     const { domElement } = this.renderer;
     domElement.setAttribute("role", "img");
     domElement.setAttribute("aria-label", "The motion in space. Drag to turn, scroll to zoom.");
