@@ -88,6 +88,14 @@ Expression Expression::relocated(const std::function<SourceLocation(const Source
   return Expression(std::move(formula));
 }
 
+bool Expression::is_condition() const {
+  using enum detail::Operation;
+  constexpr detail::Operation kConditions[] = {less,      less_equal,  greater,    greater_equal, equal,
+                                               not_equal, logical_and, logical_or, logical_not};
+  return root().kind == SyntaxNode::Kind::operation &&
+         std::ranges::find(kConditions, root().operation) != std::end(kConditions);
+}
+
 const SourceLocation& Expression::where() const { return formula_->where; }
 
 const std::string& Expression::text() const { return formula_->text; }

@@ -36,6 +36,7 @@ Simulation::Simulation(const World& world, RunObserver& observer)
   result_.method = world.method->name;
   result_.start_time = result_.end_time = world.start;
   result_.parameters = world.parameters;
+  result_.warnings = world.warnings;
 }
 
 RunResult Simulation::run() {

@@ -37,9 +37,7 @@ class WorldBuilder {
     set_time();
     set_method(scene_.method, numbers_, world_);
     for (const ObstacleDefinition& obstacle : scene_.obstacles)
-      world_.obstacles.push_back(
-          {obstacle.name, numbers_.shape(obstacle), obstacle.on_hit,
-           numbers_.within(obstacle.restitution, 0.0, 1.0, "restitution of obstacle '" + obstacle.name + "'")});
+      world_.obstacles.push_back({obstacle.name, numbers_.shape(obstacle), obstacle.on_hit, restitution_of(obstacle)});
     find_dependencies();
     place_in_groups();
     for (std::size_t g = 0; g < world_.groups.size(); ++g) compile_group(static_cast<int>(g));
@@ -83,6 +81,14 @@ class WorldBuilder {
                                 : (duration > 0.0 ? duration / kDefaultSampleCount : 1.0);
     if (duration / world_.sample > kMostSamples)
       throw InputError(time.sample->where(), "sample spacing gives more than 1e12 samples");
+  }
+
+  double restitution_of(const ObstacleDefinition& obstacle) {
+    if (!obstacle.restitution) return 1.0;
+    if (obstacle.on_hit != OnHit::bounce)
+      world_.warnings.push_back("obstacle '" + obstacle.name +
+                                "' has a restitution, which nothing needs: its on_hit is not \"bounce\"");
+    return numbers_.within(*obstacle.restitution, 0.0, 1.0, "restitution of obstacle '" + obstacle.name + "'");
   }
 
   /// Joins `member` with all bodies and states that a formula of its own names.
@@ -260,6 +266,10 @@ class WorldBuilder {
     event.group = group_of(event_member(static_cast<std::size_t>(index)));
     event.direction = definition.direction;
     event.action = definition.action;
+    if (definition.when.is_condition())
+      throw InputError(definition.when.where(),
+                       "'when' is a condition, which crosses no zero: write the quantity "
+                       "that does, for `a > b` its difference `a - b`");
     ProgramBuilder when(input_count);
     when.add_output(when.compile_scalar(definition.when, group_symbols(event.group, when)));
     event.when = when.build();

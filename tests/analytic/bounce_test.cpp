@@ -4,25 +4,13 @@
 
 #include <cmath>
 
-#include "scene_run.hpp"
+#include "bouncing_ground.hpp"
 
 namespace trajet {
 namespace {
 
+using test::kBouncingGround;
 using test::Way;
-
-const std::string kGround = R"(
-[[obstacle]]
-name = "ground"
-shape = "plane"
-point = [0, 0, 0]
-normal = [0, 0, 1]
-on_hit = "bounce"
-)";
-
-std::vector<Way> ways() {
-  return {{"taylor", "name = \"taylor\"\n"}, {"dopri5", "name = \"dopri5\"\n"}, test::fixed("rk4", 0.05)};
-}
 
 /// A ball thrown upward from `height` with `speed`: contacts and the end of bouncing, in closed form.
 struct Bouncing {
@@ -41,8 +29,8 @@ struct Bouncing {
     return test::run_text("[time]\nend = " + test::number(until) + "\n[method]\n" + way.lines +
                           "[[body]]\nname = \"ball\"\n" + shape + "position = [0, 0, " + test::number(height + radius) +
                           "]\nvelocity = [1, 0, " + test::number(speed) + "]\nacceleration = [0, 0, " +
-                          test::number(-gravity) + "]\n" + kGround + "restitution = " + test::number(restitution) +
-                          "\n");
+                          test::number(-gravity) + "]\n" + kBouncingGround +
+                          "restitution = " + test::number(restitution) + "\n");
   }
 };
 
@@ -58,7 +46,7 @@ TEST(Bounce, PublishedContactsAndEnds) {
                            // MATLAB's ballode
                            {{9.8, 0.0, 20.0, 0.9}, {4.08163265, 7.75510204, 11.06122449}, 40.81632653, 5e-9}};
   for (const Published& published : all) {
-    for (const Way& way : ways()) {
+    for (const Way& way : test::long_controlled_and_short_steps()) {
       for (const double radius : {0.0, 0.25}) {
         const RunResult result = published.ball.run(way, 1.5 * published.end, radius);
         SCOPED_TRACE(way.name + " " + test::number(radius));
@@ -86,7 +74,7 @@ TEST(Bounce, PublishedContactsAndEnds) {
 
 TEST(Bounce, EveryContactOfTheSeries) {
   const Bouncing ball{9.81, 1.0, 0.0, 0.7};
-  const RunResult result = ball.run(ways()[0], 3.0);
+  const RunResult result = ball.run(test::long_controlled_and_short_steps()[0], 3.0);
   const auto hits = test::impacts_of(result, ImpactKind::hit);
   EXPECT_GT(hits.size(), 25u);  // 0.49^25 m is 2e-8 m
   for (std::size_t i = 0; i < hits.size(); ++i)
@@ -94,7 +82,7 @@ TEST(Bounce, EveryContactOfTheSeries) {
 }
 
 TEST(Bounce, NoRestitutionComesToRestAtOnce) {
-  const RunResult result = Bouncing{9.81, 1.0, 0.0, 0.0}.run(ways()[0], 2.0);
+  const RunResult result = Bouncing{9.81, 1.0, 0.0, 0.0}.run(test::long_controlled_and_short_steps()[0], 2.0);
   ASSERT_EQ(result.impacts.size(), 2u);
   EXPECT_EQ(result.impacts[0].kind, ImpactKind::hit);
   EXPECT_EQ(result.impacts[1].kind, ImpactKind::rest);
@@ -103,7 +91,7 @@ TEST(Bounce, NoRestitutionComesToRestAtOnce) {
 }
 
 TEST(Bounce, AnElasticBallKeepsItsEnergy) {
-  for (const Way& way : ways()) {
+  for (const Way& way : test::long_controlled_and_short_steps()) {
     const RunResult result = Bouncing{9.81, 1.0, 0.0, 1.0}.run(way, 300.0);
     ASSERT_EQ(result.status, RunStatus::finished) << way.name << result.failure;
     // a flight lasts 2 * 0.4515 s
@@ -133,7 +121,7 @@ mass = "3 + t"
 name = "mass"
 value = 3
 rate = 1
-)" + kGround + "restitution = 0.5\n");
+)" + kBouncingGround + "restitution = 0.5\n");
   ASSERT_EQ(result.impacts.size(), 1u);
   const Impact& hit = result.impacts[0];
   EXPECT_NEAR(hit.time, 1.0, 1e-15);

@@ -4,29 +4,17 @@
 
 #include <cmath>
 
-#include "scene_run.hpp"
+#include "bouncing_ground.hpp"
 
 namespace trajet {
 namespace {
 
+using test::kBouncingGround;
 using test::Way;
-
-const std::string kGround = R"(
-[[obstacle]]
-name = "ground"
-shape = "plane"
-point = [0, 0, 0]
-normal = [0, 0, 1]
-on_hit = "bounce"
-)";
-
-std::vector<Way> ways() {
-  return {{"taylor", "name = \"taylor\"\n"}, {"dopri5", "name = \"dopri5\"\n"}, test::fixed("rk4", 0.05)};
-}
 
 TEST(Rest, OnAnInclineItSlidesAsGravityPulls) {
   // alpha = 30 degrees: a = g sin(alpha) along the slope
-  for (const Way& way : ways()) {
+  for (const Way& way : test::long_controlled_and_short_steps()) {
     const RunResult result = test::run_text("[time]\nend = 6\n[method]\n" + way.lines + R"(
 [[body]]
 name = "ball"
@@ -59,7 +47,7 @@ restitution = 0.5
 }
 
 TEST(Rest, OnABoxItSlidesOffTheEdgeAndFalls) {
-  for (const Way& way : ways()) {
+  for (const Way& way : test::long_controlled_and_short_steps()) {
     const RunResult result = test::run_text("[time]\nend = 20\n[method]\n" + way.lines + R"(
 [[body]]
 name = "ball"
@@ -180,13 +168,13 @@ TEST(Rest, AFloorOfTilesCarriesOnToItsEnd) {
 }
 
 TEST(Rest, EndsWhereTheLawTurnsOverAtOnce) {
-  for (const Way& way : ways()) {
+  for (const Way& way : test::long_controlled_and_short_steps()) {
     const RunResult result = test::run_text("[time]\nend = 4\n[method]\n" + way.lines + R"(
 [[body]]
 name = "ball"
 position = [0, 0, 0]
 acceleration = "[0, 0, where(t < 2, -9.8, 1)]"
-)" + kGround + "restitution = 0\n");
+)" + kBouncingGround + "restitution = 0\n");
     ASSERT_EQ(result.status, RunStatus::finished) << result.failure;
     const auto leaves = test::impacts_of(result, ImpactKind::leave);
     ASSERT_EQ(leaves.size(), 1u) << way.name;
@@ -223,7 +211,7 @@ acceleration = "[0, 0, -g]"
 [[event]]
 name = "kick"
 when = "t - 1"
-set = { )" + std::string(c.set) + " }\n" + kGround +
+set = { )" + std::string(c.set) + " }\n" + kBouncingGround +
                                             "restitution = 0.5\n");
     ASSERT_EQ(result.status, RunStatus::finished) << result.failure;
     EXPECT_EQ(test::impacts_of(result, ImpactKind::hit).size(), 1 + c.hits);
@@ -241,7 +229,7 @@ end = 4
 name = "ball"
 position = [0, 0, 1]
 acceleration = [0, 0, "t - 3"]
-)" + kGround + "restitution = 0\n");
+)" + kBouncingGround + "restitution = 0\n");
   ASSERT_EQ(result.status, RunStatus::finished) << result.failure;
   const auto leaves = test::impacts_of(result, ImpactKind::leave);
   ASSERT_EQ(leaves.size(), 1u);

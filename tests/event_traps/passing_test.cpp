@@ -116,6 +116,19 @@ TEST(Passing, TheFirstOfSeveralStopsWhateverTheirOrderInTheScene) {
   }
 }
 
+TEST(Passing, ARestitutionWithoutABounceIsWarnedOf) {
+  const std::string scene =
+      "[time]\nend = 10\n[[body]]\nname = \"a\"\nvelocity = [1, 0, 0]\n[[obstacle]]\nname = \"near\"\nshape = "
+      "\"disk\"\n"
+      "center = [2, 0, 0]\nnormal = [1, 0, 0]\nradius = 1\n";
+  EXPECT_TRUE(run_text(scene).warnings.empty());
+  EXPECT_TRUE(run_text(scene + "on_hit = \"bounce\"\nrestitution = 0.5\n").warnings.empty());
+  const RunResult result = run_text(scene + "restitution = 0.5\n");
+  ASSERT_EQ(result.warnings.size(), 1u);
+  EXPECT_NE(result.warnings[0].find("'near' has a restitution"), std::string::npos) << result.warnings[0];
+  EXPECT_THROW(run_text(scene + "restitution = 2\n"), InputError);
+}
+
 TEST(Passing, ACornerBouncesOffBothPlanes) {
   // Into the corner of the floor and a wall, both met at t = 1 exactly, or 1e-15 s apart.
   for (const double shift : {0.0, 1e-15, -1e-15}) {

@@ -147,6 +147,21 @@ TEST(When, ExactlyAtTheStartIsNone) {
   }
 }
 
+TEST(When, AConditionIsRefusedSinceItCrossesNoZero) {
+  for (const char* condition : {"ball.z > 1", "ball.z > 1 and t < 2", "not t"}) {
+    try {
+      run_text(thrown(ways()[0]) + event("high", condition));
+      ADD_FAILURE() << condition;
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()).find("'when' is a condition"), std::string::npos) << error.what();
+    }
+  }
+  // what only contains one jumps across zero where it changes
+  const RunResult result = run_text(thrown(ways()[0]) + event("late", "where(t > 0.125, 1, -1)"));
+  ASSERT_EQ(result.events.size(), 1u);
+  EXPECT_NEAR(result.events[0].time, 0.125, 1e-14);
+}
+
 TEST(When, TwoAtOneTimeInTheOrderOfTheScene) {
   for (const Way& way : ways()) {
     const RunResult result =

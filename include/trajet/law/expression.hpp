@@ -38,6 +38,9 @@ class Expression {
   /// The same with `place(where)` for every place in it: of a text that was cut out of another.
   Expression relocated(const std::function<SourceLocation(const SourceLocation&)>& place) const;
 
+  /// Whether its outermost operator is a comparison, `and`, `or` or `not`, so that it is 1 or 0.
+  bool is_condition() const;
+
   const SourceLocation& where() const;
   /// The text it was parsed from, or an equivalent one.
   const std::string& text() const;

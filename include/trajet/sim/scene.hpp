@@ -146,7 +146,7 @@ struct ObstacleDefinition {
   std::string name;
   ObstacleShape shape;
   OnHit on_hit = OnHit::stop;
-  Expression restitution = 1.0;  ///< 0..1, for bounce
+  std::optional<Expression> restitution{};  ///< 0..1, for bounce; none: 1
   SourceLocation where{};
 };
 

@@ -119,6 +119,7 @@ struct World {
   long max_steps = 0;
   Locator locate = Locator::polynomial;
   std::vector<NamedValue> parameters;
+  std::vector<std::string> warnings;  ///< sentences on what the scene says in vain
   std::vector<Body> bodies;
   std::vector<Obstacle> obstacles;
   std::vector<ExtraState> states;
