@@ -17,7 +17,7 @@ ProgramExpansionT<T>::ProgramExpansionT(Program program)
   for (const Instruction& instruction : program_.instructions) {
     Step step{instruction, row_count_, -1};
     row_count_ += detail::scratch_count(instruction.opcode);
-    const auto branch_on = [&](Branch::Kind kind, int function) {
+    const auto branch_on = [&](typename Branch::Kind kind, int function) {
       step.branch = static_cast<int>(branches_.size());
       Branch branch;
       branch.kind = kind;

@@ -87,8 +87,7 @@ class ProgramExpansionT {
   std::vector<Branch> branches_;
   int row_count_ = 0;
   int stride_ = 0;
-  /// Taylor coefficients in s = row_direction (time - start): slots of the program, then scratch.  // (row_count x
-  /// stride)
+  /// Taylor coefficients in s = row_direction (time - start): slots of the program, then scratch; (row_count x stride)
   std::vector<T> rows_;
   double row_direction_ = 1.0;
   double direction_ = 1.0;  ///< of the next expansion: that of the last search
