@@ -13,7 +13,7 @@ namespace {
 /// Evaluates each parameter after those it uses.
 class ParameterEvaluation {
  public:
-  explicit ParameterEvaluation(const Scene& scene, Symbols& symbols) : scene_(scene), symbols_(symbols) {
+  ParameterEvaluation(const Scene& scene, Symbols& symbols) : symbols_(symbols) {
     for (const NamedExpression& parameter : scene.parameters) by_name_.emplace(parameter.name, &parameter);
   }
 
@@ -42,7 +42,6 @@ class ParameterEvaluation {
     std::visit([&](const auto& number) { symbols_.set_constant(parameter.name, number); }, value);
   }
 
-  const Scene& scene_;
   Symbols& symbols_;
   std::map<std::string_view, const NamedExpression*> by_name_;
   std::map<const NamedExpression*, State> states_;

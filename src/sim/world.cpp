@@ -294,7 +294,7 @@ class WorldBuilder {
       value.add_output(value.compile_vector(closed_form.value, symbols));
       auto& angular_velocity = exact_rotation(closed_form.name, closed_form.where).angular_velocity;
       if (angular_velocity) throw InputError(closed_form.where, "[exact] has both `w` and `w_body` of one body");
-      angular_velocity.emplace(is_in_body ? Frame::body : Frame::world, value.build(), closed_form.where);
+      angular_velocity = {is_in_body ? Frame::body : Frame::world, value.build(), closed_form.where};
       return;
     }
     const AssignmentTarget target = find_target(closed_form);
@@ -329,7 +329,7 @@ class WorldBuilder {
     auto& orientation = exact_rotation(closed_form.name, closed_form.where).orientation;
     if (orientation) throw InputError(closed_form.where, "[exact] has '" + closed_form.name + "' twice");
     const Form form = given.axis ? Form::axis_angle : given.matrix.empty() ? Form::quaternion : Form::matrix;
-    orientation.emplace(form, value.build(), closed_form.where);
+    orientation = {form, value.build(), closed_form.where};
   }
 
   /// An angular velocity in the other frame than the state's needs the orientation.
