@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <utility>
 
 #include "trajet/law/evaluate.hpp"
 
@@ -112,7 +113,8 @@ int Graph::fold(const Node& node) {
     program.tables.push_back(tables_[static_cast<std::size_t>(node.operands[1])]);
     instruction.b = 0;
   }
-  execute(instruction, program, slots.data());
+  program.instructions.push_back(instruction);
+  run_instructions(program, slots.data());
   return constant(slots[3]);
 }
 
@@ -295,6 +297,19 @@ Instruction Graph::make_instruction(int index, int twin, const std::vector<std::
   return instruction;
 }
 
+std::vector<int> Graph::schedule(const std::vector<bool>& live) const {
+  std::vector<int> depth(nodes_.size(), 0), order;
+  for (std::size_t i = 0; i < nodes_.size(); ++i) {
+    if (!live[i] || nodes_[i].kind != Node::Kind::operation) continue;
+    for (int which = 0; which < operand_count(nodes_[i].opcode); ++which)
+      depth[i] = std::max(depth[i], depth[static_cast<std::size_t>(operand(static_cast<int>(i), which))] + 1);
+    order.push_back(static_cast<int>(i));
+  }
+  std::ranges::stable_sort(order, {},
+                           [&](int i) { return std::pair(depth[static_cast<std::size_t>(i)], node(i).opcode); });
+  return order;
+}
+
 Program Graph::build(std::span<const int> outputs) const {
   const std::vector<bool> live = find_live(outputs);
   Program program;
@@ -308,12 +323,13 @@ Program Graph::build(std::span<const int> outputs) const {
     slots[i] = program.slot_count++;
     program.constants.push_back({slots[i], nodes_[i].constant});
   }
-  for (std::size_t i = 0; i < nodes_.size(); ++i) {
-    if (!live[i] || nodes_[i].kind != Node::Kind::operation || slots[i] != 0) continue;
-    slots[i] = program.slot_count++;
-    const int twin = find_twin(nodes_[i], live);
+  for (const int i : schedule(live)) {
+    std::int32_t& slot = slots[static_cast<std::size_t>(i)];
+    if (slot != 0) continue;  // a twin, computed already
+    slot = program.slot_count++;
+    const int twin = find_twin(node(i), live);
     if (twin >= 0) slots[static_cast<std::size_t>(twin)] = program.slot_count++;
-    program.instructions.push_back(make_instruction(static_cast<int>(i), twin, slots));
+    program.instructions.push_back(make_instruction(i, twin, slots));
   }
   for (const int output : outputs) program.outputs.push_back(slots[static_cast<std::size_t>(output)]);
   return program;

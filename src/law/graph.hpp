@@ -80,6 +80,9 @@ class Graph {
   bool collect_squares(int index, std::vector<int>& terms) const;
 
   std::vector<bool> find_live(std::span<const int> outputs) const;
+  /// The operations that are to be computed, operands first. What lies equally deep and is of one opcode stands
+  /// together: an interpreter goes from opcode to opcode less often, and neighbours do not wait for each other.
+  std::vector<int> schedule(const std::vector<bool>& live) const;
   /// The cosine of what the node is the sine of, or the other way round, if it is computed too; else -1.
   int find_twin(const Node& node, const std::vector<bool>& live) const;
   Instruction make_instruction(int index, int twin, const std::vector<std::int32_t>& slots) const;

@@ -38,12 +38,12 @@ template <class T>
 void ProgramExpansionT<T>::decide_interval(const Step& step, Branch& branch, T x) {
   const bool forced = branch.forced_sign.has_value();
   const double place = forced ? branch.forced_border : static_cast<double>(x);
-  if (step.instruction.opcode == Opcode::floor) {
+  if (step.opcode == Opcode::floor) {
     branch.lower = std::floor(place);
     if (forced && *branch.forced_sign < 0.0) branch.lower -= 1.0;
     branch.upper = branch.lower + 1.0;
   } else {
-    const Table& table = *program_.tables[static_cast<std::size_t>(step.instruction.b)];
+    const Table& table = *step.table;
     int cell = table.find_cell(place);
     if (forced && *branch.forced_sign < 0.0 && place == table.cell(cell).begin) --cell;
     const bool inside =
@@ -57,13 +57,9 @@ void ProgramExpansionT<T>::decide_interval(const Step& step, Branch& branch, T x
 
 template <class T>
 void ProgramExpansionT<T>::run_branch(const Step& step, Branch& branch, int n) {
-  const Instruction& instruction = step.instruction;
-  const T* a = row(instruction.a);
-  const T* b = row(instruction.b);
-  const T* c = row(instruction.c);
-  T* r = row(instruction.result);
-  T* u = row(step.scratch);
-  switch (instruction.opcode) {
+  const T *a = step.a, *b = step.b, *c = step.c;
+  T *r = step.result, *u = step.own[0];
+  switch (step.opcode) {
     case Opcode::abs: {
       const double sign = decide_sign(branch, n);
       r[n] = n == 0 ? std::abs(a[0]) : sign < 0.0 ? -a[n] : a[n];
@@ -73,7 +69,7 @@ void ProgramExpansionT<T>::run_branch(const Step& step, Branch& branch, int n) {
     case Opcode::max: {
       u[n] = a[n] - b[n];
       const double sign = decide_sign(branch, n);
-      const bool takes_b = instruction.opcode == Opcode::min ? sign > 0.0 : sign < 0.0;
+      const bool takes_b = step.opcode == Opcode::min ? sign > 0.0 : sign < 0.0;
       r[n] = takes_b ? b[n] : a[n];
       break;
     }
@@ -84,7 +80,7 @@ void ProgramExpansionT<T>::run_branch(const Step& step, Branch& branch, int n) {
     case Opcode::less_equal: {
       u[n] = a[n] - b[n];
       const double sign = n == 0 ? decide_sign(branch, 0) : branch.sign;
-      const bool holds = sign < 0.0 || (sign == 0.0 && instruction.opcode == Opcode::less_equal);
+      const bool holds = sign < 0.0 || (sign == 0.0 && step.opcode == Opcode::less_equal);
       r[n] = n == 0 && holds ? 1.0 : 0.0;
       break;
     }
@@ -118,9 +114,9 @@ void ProgramExpansionT<T>::run_branch(const Step& step, Branch& branch, int n) {
     case Opcode::table: {
       if (n == 0) decide_interval(step, branch, a[0]);
       // y = ((c3 s + c2) s + c1) s + c0 with s = x - begin: u = s, v = c3 s + c2, w = v s + c1
-      const Table& table = *program_.tables[static_cast<std::size_t>(instruction.b)];
+      const Table& table = *step.table;
       const Table::Cell& cell = table.cell(table.find_cell(branch.lower));
-      T *v = row(step.scratch + 1), *w = row(step.scratch + 2);
+      T *v = step.own[1], *w = step.own[2];
       u[n] = n == 0 ? a[0] - branch.lower : a[n];
       v[n] = cell.c3 * u[n] + (n == 0 ? cell.c2 : 0.0);
       w[n] = recurrence::multiply(v, u, n) + (n == 0 ? cell.c1 : 0.0);

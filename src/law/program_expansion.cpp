@@ -1,12 +1,20 @@
 #include "trajet/law/program_expansion.hpp"
 
 #include <cassert>
+#include <type_traits>
 #include <utility>
 
 #include "program_branches.hpp"
 #include "recurrence_step.hpp"
 
 namespace trajet {
+
+namespace {
+
+/// Orders up to here have sums of their own without loops: enough for a relative tolerance of 1e-16.
+constexpr int kUnrolledOrders = 28;
+
+}  // namespace
 
 template <class T>
 ProgramExpansionT<T>::ProgramExpansionT(Program program)
@@ -15,46 +23,50 @@ ProgramExpansionT<T>::ProgramExpansionT(Program program)
   end_state_.resize(program_.outputs.size());
   end_tolerance_.resize(program_.outputs.size());
   for (const Instruction& instruction : program_.instructions) {
-    Step step{instruction, row_count_, -1};
+    const int own = row_count_;
     row_count_ += detail::scratch_count(instruction.opcode);
-    const auto branch_on = [&](typename Branch::Kind kind, int function) {
-      step.branch = static_cast<int>(branches_.size());
-      Branch branch;
-      branch.kind = kind;
-      branch.function = function;
-      branches_.push_back(branch);
-    };
-    switch (instruction.opcode) {
-      case Opcode::min:
-      case Opcode::max:
-      case Opcode::less:
-      case Opcode::less_equal:
-        branch_on(Branch::Kind::sign, step.scratch);
-        break;
-      case Opcode::abs:
-      case Opcode::sign:
-        branch_on(Branch::Kind::sign, instruction.a);
-        break;
-      case Opcode::equal:
-        branch_on(Branch::Kind::nonzero, step.scratch);
-        break;
-      case Opcode::where:
-        branch_on(Branch::Kind::nonzero, instruction.a);
-        break;
-      case Opcode::norm:
-      case Opcode::sqrt:
-        branch_on(Branch::Kind::positive, instruction.result);
-        break;
-      case Opcode::floor:
-      case Opcode::table:
-        branch_on(Branch::Kind::interval, instruction.a);
-        break;
-      default:
-        break;
-    }
-    steps_.push_back(step);
+    if (const auto branch = find_branch(instruction, own)) branches_.push_back(*branch);
   }
-  ++row_count_;  // behind the last instruction, so that the first row of its own exists even where it needs none
+}
+
+/// Where an instruction branches, if it does; its first own row is `own`.
+template <class T>
+auto ProgramExpansionT<T>::find_branch(const Instruction& instruction, int own) -> std::optional<Branch> {
+  Branch branch;
+  switch (instruction.opcode) {
+    case Opcode::min:
+    case Opcode::max:
+    case Opcode::less:
+    case Opcode::less_equal:
+      branch.kind = Branch::Kind::sign;
+      branch.function = own;
+      return branch;
+    case Opcode::abs:
+    case Opcode::sign:
+      branch.kind = Branch::Kind::sign;
+      branch.function = instruction.a;
+      return branch;
+    case Opcode::equal:
+      branch.kind = Branch::Kind::nonzero;
+      branch.function = own;
+      return branch;
+    case Opcode::where:
+      branch.kind = Branch::Kind::nonzero;
+      branch.function = instruction.a;
+      return branch;
+    case Opcode::norm:
+    case Opcode::sqrt:
+      branch.kind = Branch::Kind::positive;
+      branch.function = instruction.result;
+      return branch;
+    case Opcode::floor:
+    case Opcode::table:
+      branch.kind = Branch::Kind::interval;
+      branch.function = instruction.a;
+      return branch;
+    default:
+      return std::nullopt;
+  }
 }
 
 template <class T>
@@ -63,6 +75,29 @@ void ProgramExpansionT<T>::reserve(int order) {
   stride_ = order + 1;
   rows_.assign(static_cast<std::size_t>(row_count_) * static_cast<std::size_t>(stride_), T(0.0));
   for (const Program::Constant& constant : program_.constants) row(constant.slot)[0] = constant.value;
+  place_rows();
+}
+
+template <class T>
+void ProgramExpansionT<T>::place_rows() {
+  steps_.clear();
+  int own = program_.slot_count;
+  int branch = 0;
+  for (const Instruction& instruction : program_.instructions) {
+    const bool is_table = instruction.opcode == Opcode::table;  // whose b is no slot
+    Step step{.opcode = instruction.opcode,
+              .constant = instruction.constant,
+              .a = row(instruction.a),
+              .b = is_table ? nullptr : row(instruction.b),
+              .c = row(instruction.c),
+              .result = row(instruction.result),
+              .own = {},
+              .table = is_table ? program_.tables[static_cast<std::size_t>(instruction.b)].get() : nullptr,
+              .branch = find_branch(instruction, own) ? branch++ : -1};
+    for (int i = 0; i < detail::scratch_count(instruction.opcode); ++i)
+      step.own[static_cast<std::size_t>(i)] = row(own++);
+    steps_.push_back(step);
+  }
 }
 
 template <class T>
@@ -77,24 +112,42 @@ void ProgramExpansionT<T>::expand(double t, const T* q, int order, T* coefficien
   row(0)[0] = t;
   row(0)[1] = row_direction_;
   for (int i = 0; i < dim; ++i) row(1 + i)[0] = q[i];
-  for (int n = 0; n < order; ++n) {
-    for (const Step& step : steps_) run(step, n);
-    // dq/ds = dq/dt / (ds/dt), ds/dt = +-1:  q[n+1] = (ds/dt) rate[n] / (n+1)
-    for (int i = 0; i < dim; ++i) {
-      row(1 + i)[n + 1] = row_direction_ * row(program_.outputs[static_cast<std::size_t>(i)])[n] / (n + 1);
-    }
-  }
-  double power = 1.0;  // (ds/dt)^k
-  for (int k = 0; k <= order; ++k, power *= row_direction_) {
-    for (int i = 0; i < dim; ++i) coefficients[k * dim + i] = power * row(1 + i)[k];
+  run_all(order);
+  for (int i = 0; i < dim; ++i) {
+    const T* series = row(1 + i);
+    double power = 1.0;  // (ds/dt)^k
+    for (int k = 0; k <= order; ++k, power *= row_direction_) coefficients[k * dim + i] = power * series[k];
   }
 }
 
 template <class T>
-void ProgramExpansionT<T>::run(const Step& step, int n) {
-  if (step.branch >= 0) return run_branch(step, branches_[static_cast<std::size_t>(step.branch)], n);
-  detail::smooth_step(
-      step.instruction, [this](int slot) { return row(slot); }, row(step.scratch), row(step.scratch + 1), n);
+void ProgramExpansionT<T>::run_all(int order) {
+  int n = 0;
+  if constexpr (std::is_same_v<T, double>) {
+    [&]<int... N>(std::integer_sequence<int, N...>) {
+      // stops at the order asked for: && ends the chain
+      static_cast<void>(((N < order && (run(std::integral_constant<int, N>()), n = N + 1, true)) && ...));
+    }
+    (std::make_integer_sequence<int, kUnrolledOrders>());
+  }
+  for (; n < order; ++n) run(n);
+}
+
+template <class T>
+template <class Order>
+void ProgramExpansionT<T>::run(Order n) {
+  for (const Step& step : steps_) {
+    if (detail::common_step(step, n)) continue;
+    if (step.branch >= 0) {
+      run_branch(step, branches_[static_cast<std::size_t>(step.branch)], n);
+    } else {
+      detail::smooth_step(step, n);
+    }
+  }
+  // dq/ds = dq/dt / (ds/dt), ds/dt = +-1:  q[n+1] = (ds/dt) rate[n] / (n+1)
+  const T factor = row_direction_ * (T(1.0) / (n + 1));
+  const std::int32_t* rate = program_.outputs.data();
+  for (int i = 0; i < dimension(); ++i) row(1 + i)[n + 1] = factor * row(rate[i])[n];
 }
 
 template class ProgramExpansionT<double>;

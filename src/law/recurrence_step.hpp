@@ -2,8 +2,10 @@
 
 #include <cmath>
 #include <limits>
+#include <type_traits>
 
 #include "trajet/law/program.hpp"
+#include "trajet/math/force_inline.hpp"
 #include "trajet/math/recurrences.hpp"
 
 namespace trajet::detail {
@@ -80,51 +82,72 @@ void asin_step(const T* x, T* y, T* root, int n) {
   root[0] = std::sqrt((1.0 - x[0]) * (1.0 + x[0]));
 }
 
-/// The n-th coefficient of an instruction without branches. `row(i)` are the coefficients of slot i; `u` and `v` are
-/// the instruction's first and second row of its own.
-template <class T, class Row>
-void smooth_step(const Instruction& instruction, const Row& row, T* u, T* v, int n) {
-  const T* a = row(instruction.a);
-  const T* b = row(instruction.b);
-  T* r = row(instruction.result);
-  const T k = instruction.constant;
-  switch (instruction.opcode) {
+/// The n-th coefficient of what laws mostly consist of, with the sums unrolled where `n` is a std::integral_constant.
+/// False, with nothing done, if `step` is of another kind or has its own rule for this coefficient: see smooth_step.
+template <class Step, class Order>
+TRAJET_INLINE bool common_step(const Step& step, Order n) {
+  using T = std::remove_pointer_t<decltype(step.result)>;
+  const T *a = step.a, *b = step.b;
+  T* r = step.result;
+  const T k = step.constant;
+  switch (step.opcode) {
     case Opcode::add:
       r[n] = a[n] + b[n];
-      break;
+      return true;
     case Opcode::add_constant:
       r[n] = n == 0 ? a[0] + k : a[n];
-      break;
+      return true;
     case Opcode::subtract:
       r[n] = a[n] - b[n];
-      break;
+      return true;
     case Opcode::constant_minus:
       r[n] = n == 0 ? k - a[0] : -a[n];
-      break;
+      return true;
     case Opcode::multiply:
       r[n] = recurrence::multiply(a, b, n);
-      break;
+      return true;
     case Opcode::multiply_constant:
       r[n] = k * a[n];
-      break;
+      return true;
     case Opcode::divide:
       r[n] = recurrence::divide(a[n], b, r, n);
-      break;
+      return true;
     case Opcode::divide_constant:
       r[n] = a[n] / k;
-      break;
+      return true;
     case Opcode::constant_over:
       r[n] = recurrence::divide(n == 0 ? k : T(0.0), a, r, n);
-      break;
+      return true;
     case Opcode::negate:
       r[n] = -a[n];
-      break;
+      return true;
     case Opcode::square:
       r[n] = recurrence::square(a, n);
-      break;
+      return true;
+    case Opcode::sqrt:  // a branch decides at order 0, and where it starts at zero
+      if (n == 0 || r[0] == 0.0) return false;
+      r[n] = recurrence::sqrt(a, r, step.own[0][0], n);
+      return true;
+    case Opcode::norm:
+      if (n == 0 || r[0] == 0.0) return false;
+      r[n] = recurrence::norm3(a, b, step.c, r, step.own[0][0], n);
+      return true;
+    default:
+      return false;
+  }
+}
+
+/// The n-th coefficient of the other instructions without branches.
+template <class Step>
+void smooth_step(const Step& step, int n) {
+  using T = std::remove_pointer_t<decltype(step.result)>;
+  const T* a = step.a;
+  T *b = step.b, *r = step.result, *u = step.own[0], *v = step.own[1];
+  const T k = step.constant;
+  switch (step.opcode) {
     case Opcode::power:  // a^b = exp(b log a): u = log a, v = b u
       u[n] = n == 0 ? std::log(a[0]) : recurrence::log(a, u, n);
-      v[n] = recurrence::multiply(b, u, n);
+      v[n] = recurrence::multiply<T>(b, u, n);
       r[n] = n == 0 ? std::pow(a[0], b[0]) : recurrence::exp(v, r, n);
       break;
     case Opcode::power_constant:
@@ -150,7 +173,7 @@ void smooth_step(const Instruction& instruction, const Row& row, T* u, T* v, int
       sin_cos_step(a, u, r, n);
       break;
     case Opcode::sin_cos:
-      sin_cos_step(a, r, row(instruction.b), n);
+      sin_cos_step(a, r, b, n);
       break;
     case Opcode::sinh:
       sinh_cosh_step(a, r, u, n);
@@ -159,7 +182,7 @@ void smooth_step(const Instruction& instruction, const Row& row, T* u, T* v, int
       sinh_cosh_step(a, u, r, n);
       break;
     case Opcode::sinh_cosh:
-      sinh_cosh_step(a, r, row(instruction.b), n);
+      sinh_cosh_step(a, r, b, n);
       break;
     case Opcode::tan:
       if (n > 0) return recurrence::tan(a, r, u, n);
@@ -188,7 +211,7 @@ void smooth_step(const Instruction& instruction, const Row& row, T* u, T* v, int
       r[0] = std::atan2(a[0], b[0]);
       u[0] = a[0] * a[0] + b[0] * b[0];
       break;
-    default:  // the opcodes with branches
+    default:  // those of common_step, and those with branches
       break;
   }
 }

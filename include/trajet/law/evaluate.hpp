@@ -51,143 +51,116 @@ TRAJET_INLINE T decimal_logarithm(const T& a) {
   }
 }
 
-/// Runs one instruction. The functions are those of the number type, found beside it, or those of <cmath>.
+/// Runs the instructions from `i` on that are of the same opcode, up to `end`, and returns the one behind them. The
+/// functions are those of the number type, found beside it, or those of <cmath>.
 template <class T>
-TRAJET_INLINE void execute(const Instruction& instruction, const Program& program, T* slots) {
+TRAJET_INLINE const Instruction* run_alike(const Instruction* i, const Instruction* end, const Program& program,
+                                           T* slots) {
   using std::abs, std::acos, std::asin, std::atan, std::atan2, std::cbrt, std::cos, std::cosh, std::exp, std::floor,
       std::log, std::pow, std::sin, std::sinh, std::sqrt, std::tan, std::tanh;
   // found only where the opcode needs them: on plain numbers, finding them is most of the work
-  const auto a = [&]() -> const T& { return slots[instruction.a]; };
-  const auto b = [&]() -> const T& { return slots[instruction.b]; };
-  const auto c = [&]() -> const T& { return slots[instruction.c]; };
-  const auto result = [&]() -> T& { return slots[instruction.result]; };
-  switch (instruction.opcode) {
+  const auto a = [&]() -> const T& { return slots[i->a]; };
+  const auto b = [&]() -> const T& { return slots[i->b]; };
+  const auto c = [&]() -> const T& { return slots[i->c]; };
+  const auto result = [&]() -> T& { return slots[i->result]; };
+  const auto each = [&, opcode = i->opcode](const auto& compute) {
+    do {
+      compute();
+      ++i;
+    } while (i != end && i->opcode == opcode);
+    return i;
+  };
+  switch (i->opcode) {
     case Opcode::add:
-      result() = a() + b();
-      break;
+      return each([&] { result() = a() + b(); });
     case Opcode::add_constant:
-      result() = a() + T(instruction.constant);
-      break;
+      return each([&] { result() = a() + T(i->constant); });
     case Opcode::subtract:
-      result() = a() - b();
-      break;
+      return each([&] { result() = a() - b(); });
     case Opcode::constant_minus:
-      result() = T(instruction.constant) - a();
-      break;
+      return each([&] { result() = T(i->constant) - a(); });
     case Opcode::multiply:
-      result() = a() * b();
-      break;
+      return each([&] { result() = a() * b(); });
     case Opcode::multiply_constant:
-      result() = T(instruction.constant) * a();
-      break;
+      return each([&] { result() = T(i->constant) * a(); });
     case Opcode::divide:
-      result() = a() / b();
-      break;
+      return each([&] { result() = a() / b(); });
     case Opcode::divide_constant:
-      result() = a() / T(instruction.constant);
-      break;
+      return each([&] { result() = a() / T(i->constant); });
     case Opcode::constant_over:
-      result() = T(instruction.constant) / a();
-      break;
+      return each([&] { result() = T(i->constant) / a(); });
     case Opcode::negate:
-      result() = -a();
-      break;
+      return each([&] { result() = -a(); });
     case Opcode::square:
-      result() = squared(a());
-      break;
+      return each([&] { result() = squared(a()); });
     case Opcode::power:
-      result() = pow(a(), b());
-      break;
+      return each([&] { result() = pow(a(), b()); });
     case Opcode::power_constant:
-      result() = raised(a(), instruction.constant);
-      break;
+      return each([&] { result() = raised(a(), i->constant); });
     case Opcode::sqrt:
-      result() = sqrt(a());
-      break;
+      return each([&] { result() = sqrt(a()); });
     case Opcode::cbrt:
-      result() = cbrt(a());
-      break;
+      return each([&] { result() = cbrt(a()); });
     case Opcode::exp:
-      result() = exp(a());
-      break;
+      return each([&] { result() = exp(a()); });
     case Opcode::log:
-      result() = log(a());
-      break;
+      return each([&] { result() = log(a()); });
     case Opcode::log10:
-      result() = decimal_logarithm(a());
-      break;
+      return each([&] { result() = decimal_logarithm(a()); });
     case Opcode::sin:
-      result() = sin(a());
-      break;
+      return each([&] { result() = sin(a()); });
     case Opcode::cos:
-      result() = cos(a());
-      break;
+      return each([&] { result() = cos(a()); });
     case Opcode::sin_cos:
-      result() = sin(a());
-      slots[instruction.b] = cos(a());
-      break;
+      return each([&] {
+        result() = sin(a());
+        slots[i->b] = cos(a());
+      });
     case Opcode::tan:
-      result() = tan(a());
-      break;
+      return each([&] { result() = tan(a()); });
     case Opcode::asin:
-      result() = asin(a());
-      break;
+      return each([&] { result() = asin(a()); });
     case Opcode::acos:
-      result() = acos(a());
-      break;
+      return each([&] { result() = acos(a()); });
     case Opcode::atan:
-      result() = atan(a());
-      break;
+      return each([&] { result() = atan(a()); });
     case Opcode::atan2:
-      result() = atan2(a(), b());
-      break;
+      return each([&] { result() = atan2(a(), b()); });
     case Opcode::sinh:
-      result() = sinh(a());
-      break;
+      return each([&] { result() = sinh(a()); });
     case Opcode::cosh:
-      result() = cosh(a());
-      break;
+      return each([&] { result() = cosh(a()); });
     case Opcode::sinh_cosh:
-      result() = sinh(a());
-      slots[instruction.b] = cosh(a());
-      break;
+      return each([&] {
+        result() = sinh(a());
+        slots[i->b] = cosh(a());
+      });
     case Opcode::tanh:
-      result() = tanh(a());
-      break;
+      return each([&] { result() = tanh(a()); });
     case Opcode::abs:
-      result() = abs(a());
-      break;
+      return each([&] { result() = abs(a()); });
     case Opcode::sign:
-      result() = sign(a());
-      break;
+      return each([&] { result() = sign(a()); });
     case Opcode::floor:
-      result() = floor(a());
-      break;
+      return each([&] { result() = floor(a()); });
     case Opcode::min:
-      result() = min(a(), b());
-      break;
+      return each([&] { result() = min(a(), b()); });
     case Opcode::max:
-      result() = max(a(), b());
-      break;
+      return each([&] { result() = max(a(), b()); });
     case Opcode::less:
-      result() = truth<T>(less(a(), b()));
-      break;
+      return each([&] { result() = truth<T>(less(a(), b())); });
     case Opcode::less_equal:
-      result() = truth<T>(less_equal(a(), b()));
-      break;
+      return each([&] { result() = truth<T>(less_equal(a(), b())); });
     case Opcode::equal:
-      result() = truth<T>(equal(a(), b()));
-      break;
+      return each([&] { result() = truth<T>(equal(a(), b())); });
     case Opcode::where:
-      result() = where(equal(a(), T(0.0)), c(), b());
-      break;
+      return each([&] { result() = where(equal(a(), T(0.0)), c(), b()); });
     case Opcode::norm:
-      result() = norm3(a(), b(), c());
-      break;
+      return each([&] { result() = norm3(a(), b(), c()); });
     case Opcode::table:
-      result() = (*program.tables[static_cast<std::size_t>(instruction.b)])(a());
-      break;
+      return each([&] { result() = (*program.tables[static_cast<std::size_t>(i->b)])(a()); });
   }
+  return end;
 }
 
 }  // namespace detail
@@ -201,7 +174,8 @@ void load_constants(const Program& program, T* slots) {
 /// Evaluates a program whose inputs and constants are already in their slots; the outputs are then found there.
 template <class T>
 void run_instructions(const Program& program, T* slots) {
-  for (const Instruction& instruction : program.instructions) detail::execute(instruction, program, slots);
+  const Instruction* const end = program.instructions.data() + program.instructions.size();
+  for (const Instruction* i = program.instructions.data(); i != end;) i = detail::run_alike(i, end, program, slots);
 }
 
 /// A program with slots to run it on numbers of type T: double, Pack, Interval, Series. Allocates once, when made.

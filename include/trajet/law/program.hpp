@@ -66,7 +66,8 @@ struct Instruction {
 /// Formulas compiled into a flat list of scalar instructions in which nothing is computed twice.
 ///
 /// It works on an array of slots, of any number type: first the inputs (0 is the time t, then the state), then the
-/// constants, then the results in the order of the instructions; each slot is written once. Plain data: read it,
+/// constants, then the results in the order of the instructions; each slot is written once. Alike instructions that do
+/// not need each other stand together. Plain data: read it,
 /// evaluate it (law/evaluate.hpp), expand it into power series (law/program_expansion.hpp). `ProgramBuilder` makes it.
 struct Program {
   struct Constant {

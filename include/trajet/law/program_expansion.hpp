@@ -27,6 +27,8 @@ class ProgramExpansionT {
   static constexpr int kMaxOrder = kMaxPolynomialDegree;
 
   explicit ProgramExpansionT(Program program);
+  ProgramExpansionT(const ProgramExpansionT&) = delete;  // its steps point to its rows
+  ProgramExpansionT& operator=(const ProgramExpansionT&) = delete;
 
   int dimension() const { return static_cast<int>(program_.outputs.size()); }
   const Program& program() const { return program_; }
@@ -60,16 +62,25 @@ class ProgramExpansionT {
     std::array<bool, 3> refuted{};      ///< the signs -1, 0, 1 that have been tried at that zero in vain
   };
 
-  /// An instruction with the rows it keeps for itself.
+  /// An instruction with the rows of coefficients that it reads and writes.
   struct Step {
-    Instruction instruction;
-    int scratch = 0;  ///< first row of its own
-    int branch = -1;  ///< index of its Branch
+    Opcode opcode;
+    T constant;
+    T *a, *b, *c, *result;
+    std::array<T*, 3> own;  ///< what it keeps for itself
+    const Table* table;
+    int branch;  ///< index of its Branch, or -1
   };
 
+  static std::optional<Branch> find_branch(const Instruction& instruction, int own);
   T* row(int index) { return rows_.data() + static_cast<std::ptrdiff_t>(index) * stride_; }
   void reserve(int order);
-  void run(const Step& step, int n);
+  /// Where the rows of each instruction are, after they have moved.
+  void place_rows();
+  /// The n-th coefficient of every instruction and the next one of the state; `Order` is an int or a constant.
+  template <class Order>
+  void run(Order n);
+  void run_all(int order);
   void run_branch(const Step& step, Branch& branch, int n);
   double decide_sign(Branch& branch, int n);
   void decide_interval(const Step& step, Branch& branch, T x);
@@ -83,7 +94,7 @@ class ProgramExpansionT {
   bool continues_at(double t, const T* q) const;
 
   Program program_;
-  std::vector<Step> steps_;
+  std::vector<Step> steps_;  // one for each instruction
   std::vector<Branch> branches_;
   int row_count_ = 0;
   int stride_ = 0;
