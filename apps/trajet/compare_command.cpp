@@ -173,8 +173,6 @@ int compare_command(const CompareArguments& arguments) {
   if (!arguments.json.empty()) json.emplace(arguments.json);
   if (!arguments.csv.empty()) csv.emplace(arguments.csv);
 
-  if (plot) plot->open();
-
   CompareMonitor monitor(plot.has_value());
   const Comparison comparison = compare(scene, plan, &monitor);
   monitor.clear();
@@ -187,7 +185,6 @@ int compare_command(const CompareArguments& arguments) {
     csv->write(compare_csv(comparison));
     csv->finish();
   }
-  if (plot && monitor.has_motions()) plot->write(compare_figure(comparison, world, monitor.motions(), shown));
   const bool stdout_has_data = arguments.json == "-" || arguments.csv == "-";
   if (!arguments.quiet && !stdout_has_data) {
     const bool color = wants_color(stdout);
@@ -195,6 +192,10 @@ int compare_command(const CompareArguments& arguments) {
     if (!comparison.title.empty()) out.write(styled(comparison.title, Style::bold, color) + "\n");
     out.write(reference_line(comparison) + table(comparison, color) + notes(comparison) + rotation_table(comparison));
     out.finish();
+  }
+  if (plot && monitor.has_motions()) {
+    plot->open();
+    plot->write(compare_figure(comparison, world, monitor.motions(), shown));
   }
   for (const std::string& warning : comparison.warnings) fmt::print(stderr, "warning: {}\n", warning);
   return exit_code(comparison);

@@ -88,7 +88,7 @@ void check_command_name(const std::vector<std::string_view>& commands, int argc,
 }
 
 int run_program(int argc, char** argv) {
-  CLI::App app("trajet: the motion of particles, with the exact time and place of every impact");
+  CLI::App app("trajet: the motion of particles and rigid solids, with the exact time and place of every impact");
   app.set_version_flag("--version", std::string("trajet ") + kVersion);
   app.require_subcommand(1);
 
@@ -156,8 +156,9 @@ int main(int argc, char** argv) {
   } catch (const trajet::InputError& error) {
     fmt::print(stderr, "{}\n", error.what());
     // A fault whose place is an option or the program's name stands in the command line, not in the scene.
-    const std::string& place = error.where().file;
-    return place.starts_with("--") || place == "trajet" ? trajet::kWrongCommandLine : trajet::kWrongScene;
+    const trajet::SourceLocation& place = error.where();
+    const bool is_program = place.file == "trajet" && place.line == 0;
+    return is_program || place.file.starts_with("--") ? trajet::kWrongCommandLine : trajet::kWrongScene;
   } catch (const trajet::FileError& error) {
     fmt::print(stderr, "{}{}\n", error.has_place() ? "" : "error: ", error.what());
     return trajet::kFileFailed;

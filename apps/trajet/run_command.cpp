@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -16,6 +17,7 @@
 #include "trajet/io/report_json.hpp"
 #include "trajet/io/scene_file.hpp"
 #include "trajet/sim/run.hpp"
+#include "trajet/sim/world.hpp"
 #include "trajet/viz/page.hpp"
 #include "trajet/viz/run_figure.hpp"
 
@@ -44,7 +46,10 @@ int run_command(const RunArguments& arguments) {
   if (!arguments.plot.empty()) plot.emplace(arguments.plot);
   Scene scene = read_scene(arguments.scene);
   apply(arguments.overrides, scene);
-  check(scene);  // a wrong scene must not cost the user an earlier report: files are opened behind this line
+  // A wrong scene must not cost the user an earlier report: files are opened behind these lines.
+  const World world = make_world(scene);
+  if (!arguments.glb.empty() && std::abs(world.end - world.start) * arguments.fps > kMostAnimationKeys)
+    throw InputError({"--fps"}, fmt::format("at most {:.0e} keys in all expected", kMostAnimationKeys));
 
   std::optional<OutputFile> json, csv, html, glb;
   std::optional<CsvWriter> csv_writer;
@@ -60,7 +65,7 @@ int run_command(const RunArguments& arguments) {
     if (csv_writer) consumers.push_back(&*csv_writer);
     if (html || glb || plot) consumers.push_back(&motion);
     RunMonitor monitor(std::move(consumers));
-    return run(scene, &monitor);
+    return run(world, &monitor);
   }();
 
   if (csv) csv->finish();

@@ -1,5 +1,7 @@
 #include <array>
 #include <boost/numeric/odeint.hpp>
+#include <functional>
+#include <memory>
 
 #include "../problem_set.hpp"
 #include "../work_precision.hpp"
@@ -27,9 +29,12 @@ constexpr auto law() {
 
 template <class Problem, class MakeStepper>
 void add_adaptive(const char* method, double tolerance, MakeStepper make_stepper) {
-  add_case({Benchmark<Problem>::kName, Contender::odeint, labelled(method, tolerance)}, [=] {
+  // made once, as ours are: Bulirsch and Stoer's has tables
+  auto stepper = std::make_shared<decltype(make_stepper(tolerance))>(make_stepper(tolerance));
+  add_case({Benchmark<Problem>::kName, Contender::odeint, labelled(method, tolerance)}, [stepper] {
     State<Problem> q = start<Problem>();
-    odeint::integrate_adaptive(make_stepper(tolerance), law<Problem>(), q, Problem::start_time(), Problem::end_time(),
+    if constexpr (requires { stepper->reset(); }) stepper->reset();  // else it remembers nothing from run to run
+    odeint::integrate_adaptive(std::ref(*stepper), law<Problem>(), q, Problem::start_time(), Problem::end_time(),
                                kFirstStep);
     return error_at_end<Problem>(q);
   });

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
+
+#include "trajet/io/gltf.hpp"
 
 namespace trajet::detail {
 
@@ -53,6 +56,7 @@ std::map<float, Pose> animation_keys(const MotionRecord& motion, const RunResult
     if (impact.body == body.name) add_jump(impact.time);
   for (const EventRecord& event : result.events) add_jump(event.time);
 
+  if (duration * fps > kMostAnimationKeys) throw std::length_error("too many keys for an animation");
   const auto frame_count = static_cast<long>(std::floor(duration * fps));
   for (long i = 0; i <= frame_count; ++i) {
     const double time = static_cast<double>(i) / fps;

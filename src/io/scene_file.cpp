@@ -197,6 +197,7 @@ class SceneReader {
     const std::size_t default_action = table.has("set") ? 2 : 0;
     event.action = std::array{EventAction::record, EventAction::stop,
                               EventAction::set}[nested ? 2 : table.choice("action", kActions, default_action)];
+    if (nested && table.has("set")) table.fail("set", "'set' stands beside another one in 'action'");
     if (event.action == EventAction::set)
       event.set = named_formulas(holder.subtable("set"));
     else if (table.has("set"))

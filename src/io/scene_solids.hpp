@@ -5,8 +5,10 @@
 
 namespace trajet::detail {
 
-/// Reads a table `[[body]]`.
+/// Reads an orientation: an axis and an angle, a quaternion, or a matrix.
 OrientationDefinition read_orientation(const TableReader& table);
+
+/// Reads a table `[[body]]`.
 BodyDefinition read_body(const TableReader& table);
 
 /// Reads a table `[[obstacle]]`.

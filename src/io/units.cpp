@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <charconv>
-#include <cstdlib>
+#include <limits>
+#include <locale>
+#include <sstream>
 #include <string>
 
 namespace trajet {
@@ -45,6 +47,15 @@ constexpr std::string_view kOperators = "+-*/^<>=!&|,()[]";
 
 bool is_blank(char c) { return c == ' ' || c == '\t'; }
 
+/// What a number too small or too large for a double rounds to.
+double zero_or_infinity(const std::string& text) {
+  std::istringstream stream(text);
+  stream.imbue(std::locale::classic());
+  double number = 0.0;
+  stream >> number;  // fails where the number is too large
+  return stream.fail() ? std::numeric_limits<double>::infinity() : number;
+}
+
 }  // namespace
 
 std::string describe(const Dimension& dimension) {
@@ -76,8 +87,7 @@ std::optional<QuantityText> split_quantity(std::string_view text) {
   QuantityText quantity;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), quantity.number);
   if (error == std::errc::invalid_argument) return std::nullopt;
-  if (error == std::errc::result_out_of_range)
-    quantity.number = std::strtod(std::string(text.data(), end).c_str(), nullptr);
+  if (error == std::errc::result_out_of_range) quantity.number = zero_or_infinity(std::string(text.data(), end));
   if (negative) quantity.number = -quantity.number;
 
   quantity.unit = text.substr(static_cast<std::size_t>(end - text.data()));

@@ -1,10 +1,10 @@
 #include "trajet/law/expression.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <utility>
 
 #include "syntax.hpp"
+#include "trajet/math/shortest_text.hpp"
 
 namespace trajet {
 namespace {
@@ -12,22 +12,16 @@ namespace {
 using detail::Formula;
 using detail::SyntaxNode;
 
-/// The shortest text that reads back as the same number.
-std::string shortest(double value) {
-  char buffer[32];
-  return {buffer, std::to_chars(buffer, buffer + sizeof buffer, value).ptr};
-}
-
 SyntaxNode number_node(double value, const SourceLocation& where) {
   SyntaxNode node;
   node.where = where;
   node.value = value;
-  node.text = shortest(value);
+  node.text = shortest_text(value);
   return node;
 }
 
 Formula number_formula(double value, const SourceLocation& where) {
-  return {number_node(value, where), where, shortest(value)};
+  return {number_node(value, where), where, shortest_text(value)};
 }
 
 Formula vector_formula(const SyntaxNode& x, const SyntaxNode& y, const SyntaxNode& z, const SourceLocation& where,
@@ -59,9 +53,9 @@ Expression::Expression(detail::Formula formula) : formula_(std::make_shared<cons
 Expression::Expression(double value) : Expression(number_formula(value, {})) {}
 
 Expression::Expression(const Vector3& value)
-    : Expression(
-          vector_formula(number_node(value.x(), {}), number_node(value.y(), {}), number_node(value.z(), {}), {},
-                         "[" + shortest(value.x()) + ", " + shortest(value.y()) + ", " + shortest(value.z()) + "]")) {}
+    : Expression(vector_formula(
+          number_node(value.x(), {}), number_node(value.y(), {}), number_node(value.z(), {}), {},
+          "[" + shortest_text(value.x()) + ", " + shortest_text(value.y()) + ", " + shortest_text(value.z()) + "]")) {}
 
 Expression::Expression(const char* text) : Expression(detail::parse_formula(text, {}, {})) {}
 

@@ -203,8 +203,7 @@ class Cvode::Solver {
 
 Cvode::Cvode(MultistepFormula formula, int dimension, std::unique_ptr<CvodeProblem> problem,
              const StepOptions& options) {
-  if (!(options.rtol >= 0.0 && options.atol >= 0.0 && options.rtol + options.atol > 0.0))
-    throw std::invalid_argument("`rtol` and `atol` must not be negative, and not both zero");
+  check_tolerances(options);
   solver_ = std::make_unique<Solver>(formula, dimension, std::move(problem), options);
 }
 Cvode::Cvode(Cvode&&) noexcept = default;

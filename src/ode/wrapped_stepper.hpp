@@ -1,5 +1,6 @@
 #pragma once
 
+#include <concepts>
 #include <string>
 #include <utility>
 #include <vector>
@@ -23,9 +24,16 @@ class WrappedStepper final : public AnyStepper {
   const State& state() const override { return stepper_.state(); }
   const StepStatistics& statistics() const override { return stepper_.statistics(); }
   bool amend(const State& q) override {
-    constexpr bool kCanAmend = requires { stepper_.amend(q); };
-    if constexpr (kCanAmend) stepper_.amend(q);
-    return kCanAmend;
+    if constexpr (requires {
+                    { stepper_.amend(q) } -> std::same_as<bool>;
+                  }) {
+      return stepper_.amend(q);
+    } else if constexpr (requires { stepper_.amend(q); }) {
+      stepper_.amend(q);
+      return true;
+    } else {
+      return false;
+    }
   }
   std::vector<std::string> warnings() const override {
     if constexpr (requires { stepper_.warnings(); }) return stepper_.warnings();

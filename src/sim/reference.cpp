@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <limits>
 
+#include "trajet/math/shortest_text.hpp"
+
 namespace trajet {
 namespace {
 
 ReferenceError not_finite(const std::string& name, double t, const SourceLocation& where) {
-  return ReferenceError(where, "the closed form of '" + name + "' is not finite at t = " + std::to_string(t) + " s");
+  return ReferenceError(where, "the closed form of '" + name + "' is not finite at t = " + shortest_text(t) + " s");
 }
 
 Quaternion evaluate(const World::ClosedRotation::Orientation& closed_form, Evaluator<double>& evaluator, double t) {

@@ -5,16 +5,10 @@
 
 #include "trajet/law/program_builder.hpp"
 #include "trajet/math/quaternion.hpp"
+#include "trajet/math/shortest_text.hpp"
 
 namespace trajet {
 namespace {
-
-std::string shown(double x) {
-  std::string text = std::to_string(x);
-  while (text.back() == '0') text.pop_back();
-  if (text.back() == '.') text.pop_back();
-  return text;
-}
 
 /// What is wrong with a shape as a whole is reported where its obstacle stands.
 class ShapeMaker {
@@ -66,21 +60,21 @@ double SceneNumbers::scalar(const Expression& value, const std::string& what) co
 
 double SceneNumbers::positive(const Expression& value, const std::string& what) const {
   const double number = scalar(value, what);
-  if (number <= 0.0) throw InputError(value.where(), what + " must be positive, got " + shown(number));
+  if (number <= 0.0) throw InputError(value.where(), what + " must be positive, got " + shortest_text(number));
   return number;
 }
 
 double SceneNumbers::not_negative(const Expression& value, const std::string& what) const {
   const double number = scalar(value, what);
-  if (number < 0.0) throw InputError(value.where(), what + " must not be negative, got " + shown(number));
+  if (number < 0.0) throw InputError(value.where(), what + " must not be negative, got " + shortest_text(number));
   return number;
 }
 
 double SceneNumbers::within(const Expression& value, double lowest, double highest, const std::string& what) const {
   const double number = scalar(value, what);
   if (number < lowest || number > highest)
-    throw InputError(value.where(),
-                     what + " must lie between " + shown(lowest) + " and " + shown(highest) + ", got " + shown(number));
+    throw InputError(value.where(), what + " must lie between " + shortest_text(lowest) + " and " +
+                                        shortest_text(highest) + ", got " + shortest_text(number));
   return number;
 }
 
@@ -113,6 +107,9 @@ Quaternion SceneNumbers::orientation(const OrientationDefinition& orientation, c
                                                           "vectors, right-handed");
     return from_rotation_matrix(nearest_rotation(R));
   }
+  if (orientation.axis || orientation.angle_rad || !orientation.quaternion.empty() || !orientation.matrix.empty())
+    throw InputError(orientation.where,
+                     what + " is incomplete: an axis and an angle, four numbers, or three rows expected");
   return Quaternion::Identity();
 }
 

@@ -9,7 +9,7 @@
 namespace trajet {
 namespace {
 
-/// So many impacts at one instant are a body that cannot get away, not a motion.
+/// So many impacts of one body at one instant are a body that cannot get away, not a motion.
 constexpr int kMaxImpactsAtOnce = 1000;
 
 std::string failure_text(StepStatus status) {
@@ -27,7 +27,10 @@ std::string failure_text(StepStatus status) {
 }  // namespace
 
 Simulation::Simulation(const World& world, RunObserver& observer)
-    : world_(world), observer_(observer), direction_(world.end < world.start ? -1.0 : 1.0) {
+    : world_(world),
+      observer_(observer),
+      direction_(world.end < world.start ? -1.0 : 1.0),
+      last_impacts_(world.bodies.size()) {
   observer_.begin(world_);
   for (std::size_t g = 0; g < world.groups.size(); ++g)
     motions_.push_back(std::make_unique<Motion>(world, static_cast<int>(g), observer));
@@ -60,6 +63,9 @@ RunResult Simulation::run() {
   if (result_.status != RunStatus::stopped && last_sample_ != result_.end_time) write_sample(result_.end_time);
   std::stable_sort(result_.impacts.begin(), result_.impacts.end(),
                    [&](const Impact& a, const Impact& b) { return direction_ * (b.time - a.time) > 0.0; });
+  // the end of bouncing is foretold, and may lie beyond that of the run
+  std::erase_if(result_.impacts,
+                [&](const Impact& impact) { return direction_ * (impact.time - result_.end_time) > 0.0; });
   result_.final = sample_at(result_.end_time);
   for (const auto& each : motions_) {
     const StepStatistics statistics = each->statistics();
@@ -177,7 +183,6 @@ void Simulation::record(const Impact& impact) {
   if (!result_.impacts.empty()) {
     const Impact& last = result_.impacts.back();
     const double apart = std::abs(impact.time - last.time);
-    impacts_at_once_ = apart == 0.0 ? impacts_at_once_ + 1 : 0;
     const bool is_tie = impact.with != last.with && apart <= impact.time_error_bound + last.time_error_bound;
     if (is_tie && impact.kind == ImpactKind::hit && last.kind == ImpactKind::hit)
       warn_of_tie(last, impact.body, impact.with);
@@ -220,7 +225,9 @@ void Simulation::handle_contact(int index, const Incident& incident) {
     fail(incident.time, "contact of '" + body.name + "' with '" + obstacle.name + "' is unresolved");
     return;
   }
-  if (impacts_at_once_ > kMaxImpactsAtOnce) {
+  Impacts& impacts = last_impacts_[static_cast<std::size_t>(pair.body)];
+  impacts = {incident.time, impacts.time == incident.time ? impacts.count + 1 : 1};
+  if (impacts.count > kMaxImpactsAtOnce) {
     fail(incident.time, "body '" + body.name + "' has impact after impact with '" + obstacle.name + "' at one instant");
     return;
   }

@@ -104,7 +104,12 @@ class Simulation {
   long step_count_ = 0;
   long next_sample_ = 0;
   double last_sample_ = std::numeric_limits<double>::quiet_NaN();
-  int impacts_at_once_ = 0;
+  /// How many impacts a body had at its last instant of impact.
+  struct Impacts {
+    double time = std::numeric_limits<double>::quiet_NaN();
+    int count = 0;
+  };
+  std::vector<Impacts> last_impacts_;  // of each body
 };
 
 }  // namespace trajet

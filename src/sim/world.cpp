@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <set>
 #include <string_view>
@@ -11,6 +12,7 @@
 #include "scene_numbers.hpp"
 #include "scene_symbols.hpp"
 #include "solid.hpp"
+#include "start_check.hpp"
 #include "trajet/law/evaluate.hpp"
 #include "trajet/law/program_builder.hpp"
 
@@ -42,6 +44,7 @@ class WorldBuilder {
     place_in_groups();
     for (std::size_t g = 0; g < world_.groups.size(); ++g) compile_group(static_cast<int>(g));
     check_masses();
+    check_starts(world_);
     check_that_method_suits(scene_, world_);
     for (const NamedExpression& closed_form : scene_.exact) compile_exact(closed_form);
     for (const ExactOrientation& closed_form : scene_.exact_orientations) compile_exact_orientation(closed_form);
@@ -77,10 +80,15 @@ class WorldBuilder {
     const double duration = std::abs(world_.end - world_.start);
     if (world_.end < world_.start && !scene_.obstacles.empty())
       throw InputError(time.end->where(), "the end is before the start: impacts have no meaning backward in time");
-    world_.sample = time.sample ? numbers_.positive(*time.sample, "sample spacing")
-                                : (duration > 0.0 ? duration / kDefaultSampleCount : 1.0);
-    if (duration / world_.sample > kMostSamples)
-      throw InputError(time.sample->where(), "sample spacing gives more than 1e12 samples");
+    if (!std::isfinite(duration)) throw InputError(time.end->where(), "start and end are too far apart for a double");
+    if (time.sample) {
+      world_.sample = numbers_.positive(*time.sample, "sample spacing");
+      if (duration / world_.sample > kMostSamples)
+        throw InputError(time.sample->where(), "sample spacing gives more than 1e12 samples");
+    } else {
+      world_.sample =
+          duration > 0.0 ? std::max(duration / kDefaultSampleCount, std::numeric_limits<double>::min()) : 1.0;
+    }
   }
 
   double restitution_of(const ObstacleDefinition& obstacle) {

@@ -34,6 +34,22 @@ struct Bouncing {
   }
 };
 
+// Bouncing is followed until contact lasts; when it would be over is known before that, and may be behind the end.
+TEST(Bounce, ARestBehindTheEndIsNotReported) {
+  const Bouncing ball{9.81, 1.0, 0.0, 0.5};
+  for (const Way& way : test::long_controlled_and_short_steps()) {
+    const RunResult whole = ball.run(way, 3.0);
+    const auto rests = test::impacts_of(whole, ImpactKind::rest);
+    ASSERT_EQ(rests.size(), 1u) << way.name;
+    const double last_bounce = test::impacts_of(whole, ImpactKind::hit).back()->time;
+    ASSERT_LT(last_bounce, rests[0]->time) << way.name;
+    const RunResult cut = ball.run(way, 0.5 * (last_bounce + rests[0]->time));
+    EXPECT_EQ(cut.status, RunStatus::finished) << way.name;
+    EXPECT_TRUE(test::impacts_of(cut, ImpactKind::rest).empty()) << way.name;
+    EXPECT_LE(cut.impacts.back().time, cut.end_time) << way.name;
+  }
+}
+
 TEST(Bounce, PublishedContactsAndEnds) {
   struct Published {
     Bouncing ball;

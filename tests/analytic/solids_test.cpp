@@ -222,6 +222,20 @@ TEST(Solids, TheErrorAlongTheOrbitGrowsWithTime) {
     }
 }
 
+// Over intervals in which the body turns more than once, rotation vectors have to be changed among the sub-steps.
+TEST(Solids, StepDoublingCarriesRotationVectorsAsWellAsQuaternions) {
+  const FreeRotation exact(Quaternion::Identity(), kSlowTopStart, Matrix3(kSlowTopMoments.asDiagonal()));
+  for (const double step : {1.0, 2.0, 4.0}) {
+    const auto error = [&](const char* orientation) {
+      const Way way{"", test::fixed("rk4-doubling", step).lines + "rtol = 1e-9\n"};
+      const RunResult result = run_body(kSlowTop, orientation, way, 40.0);
+      EXPECT_EQ(result.status, RunStatus::finished) << result.failure;
+      return angle_between(final_of(result, "b").orientation, exact.q_WB(40.0));
+    };
+    EXPECT_LE(error("rotation-vector"), 20.0 * error("quaternion")) << step;
+  }
+}
+
 /// Tops with published solutions, as bodies of a scene in every way.
 TEST(Solids, PublishedTops) {
   struct {

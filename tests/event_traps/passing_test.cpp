@@ -129,6 +129,18 @@ TEST(Passing, ARestitutionWithoutABounceIsWarnedOf) {
   EXPECT_THROW(run_text(scene + "restitution = 2\n"), InputError);
 }
 
+TEST(Passing, ManyBodiesMayHitAtOneInstant) {
+  std::string scene =
+      "[time]\nend = 1\n[[obstacle]]\nname = \"floor\"\nshape = \"plane\"\npoint = [0, 0, 0]\n"
+      "normal = [0, 0, 1]\non_hit = \"bounce\"\n";
+  constexpr int kBodies = 1200;  // more than one body may hit at one instant
+  for (int i = 0; i < kBodies; ++i)
+    scene += "[[body]]\nname = \"b" + std::to_string(i) + "\"\nposition = [0, 0, 0.5]\nvelocity = [0, 0, -1]\n";
+  const RunResult result = run_text(scene);
+  EXPECT_EQ(result.status, RunStatus::finished) << result.failure;
+  EXPECT_EQ(result.impacts.size(), static_cast<std::size_t>(kBodies));
+}
+
 TEST(Passing, ACornerBouncesOffBothPlanes) {
   // Into the corner of the floor and a wall, both met at t = 1 exactly, or 1e-15 s apart.
   for (const double shift : {0.0, 1e-15, -1e-15}) {

@@ -32,8 +32,9 @@ TYPED_TEST_SUITE(Convergence, FixedStepMethods);
 template <class Method>
 void expect_order(double t0, double t1) {
   using Tableau = typename Method::Tableau;
-  const int first = Tableau::kOrder == 1 ? 800 : 200;
+  const int first = Tableau::kOrder == 1 ? 800 : Tableau::kOrder < 5 ? 200 : 50;
   State coarse = end_error<Method>(t0, t1, first);
+  int compared = 0;
   for (int steps = 2 * first; steps <= 8 * first; steps *= 2) {
     const State fine = end_error<Method>(t0, t1, steps);
     if (fine.cwiseAbs().minCoeff() < 1e-13) break;
@@ -41,7 +42,9 @@ void expect_order(double t0, double t1) {
       EXPECT_NEAR(observed_order(coarse[i], fine[i]), Tableau::kOrder, 0.2)
           << "component " << i << ", " << steps << " steps";
     coarse = fine;
+    ++compared;
   }
+  EXPECT_GT(compared, 0) << "only rounding was seen";
 }
 
 TYPED_TEST(Convergence, ErrorAtTheEndFallsWithTheOrder) {

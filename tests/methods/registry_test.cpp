@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cctype>
+#include <limits>
 #include <string>
+#include <utility>
 
 #include "methods/steppers.hpp"
 #include "problems/drag.hpp"
@@ -125,6 +127,27 @@ TEST_P(EveryMethod, RefusesToWorkWithoutAStepOnlyIfItNeedsOne) {
       EXPECT_THROW(GetParam().make(system, {}), std::invalid_argument);
     } else {
       EXPECT_NO_THROW(GetParam().make(system, {}));
+    }
+  });
+}
+
+TEST_P(EveryMethod, RefusesTolerancesAndOrdersThatItCannotKeep) {
+  with_suitable_problem(GetParam(), []<class Problem>(Problem) {
+    ProblemSystem<Problem> system;
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    if (GetParam().control == StepControl::adaptive) {
+      for (const auto& [rtol, atol] : {std::pair(0.0, 0.0), {-1.0, 2.0}, {1e-6, -1.0}, {nan, 1e-6}, {1e-6, nan}})
+        EXPECT_THROW(GetParam().make(system, {.rtol = rtol, .atol = atol}), std::invalid_argument)
+            << rtol << " " << atol;
+      EXPECT_NO_THROW(GetParam().make(system, {.rtol = 0.0, .atol = 1e-6}));
+    }
+    if (GetParam().max_order > 0) {
+      StepOptions options;
+      options.step = 0.1;
+      options.order = GetParam().max_order;
+      EXPECT_NO_THROW(GetParam().make(system, options));
+      ++options.order;
+      EXPECT_THROW(GetParam().make(system, options), std::invalid_argument);
     }
   });
 }

@@ -4,6 +4,7 @@
 
 #include "trajet/io/scene_file.hpp"
 #include "trajet/io/scene_overrides.hpp"
+#include "trajet/sim/run.hpp"
 #include "trajet/sim/world.hpp"
 
 namespace trajet {
@@ -120,6 +121,8 @@ const BadScene kBadScenes[] = {
     {"[[body]]\nname = \"b\"\n[exact]\nc.orientation = {quaternion = [1, 0, 0, 0]}", "6:3",
      "neither an extra state nor a part of a body"},
     {"[[body]]\nname = \"b\"\n[[event]]\nname = \"e\"\nwhen = 1\nset = {mas = 1}", "8:8", "neither an extra state"},
+    {"[[body]]\nname = \"b\"\n[[event]]\nname = \"e\"\nwhen = 1\nset = {b.v = 1}\naction = {set = {b.v = 2}}", "8:7",
+     "'set' stands beside another one"},
     {"[[state]]\nname = \"m\"\nvalue = 1", "3:1", "[[state]] lacks the key 'rate'"},
     // nothing to do
     {"", "1:1", "nothing moves"},
@@ -159,7 +162,36 @@ const BadScene kBadNumbers[] = {
     {"[time]\nend = 1\nsample = 1e-13\n[[body]]\nname = \"b\"", "3:10", "more than 1e12 samples"},
     {"[[body]]\nname = \"b\"\n[[obstacle]]\nname = \"o\"\nshape = \"plane\"\npoint = [0,0,0]\nnormal = [0,0,0]", "9:11",
      "normal of obstacle 'o' must not be zero"},
+    {"[[body]]\nname = \"b\"\n[[obstacle]]\nname = \"o\"\nshape = \"sphere\"\ncenter = [0,0,0]\nradius = 1", "4:8",
+     "starts inside obstacle 'o'"},
+    {"[[body]]\nname = \"b\"\nshape = \"sphere\"\nradius = 0.2\n[[obstacle]]\nname = \"o\"\nshape = \"disk\"\n"
+     "center = [0.1,0,0]\nnormal = [1,0,0]\nradius = 1",
+     "4:8", "starts inside obstacle 'o'"},
+    {"[[body]]\nname = \"b\"\n[[obstacle]]\nname = \"o\"\nshape = \"sphere\"\ncenter = [5,0,0]\nradius = 1\n"
+     "on_hit = \"bounce\"\nrestitution = 1.0000001",
+     "11:15", "must lie between 0 and 1, got 1.0000001"},
+    {"[method]\nstep = \"-1e-9 s\"\n[[body]]\nname = \"b\"", "4:9", "must be positive, got -1e-09"},
+    {"[time]\nstart = -1e308\nend = 1e308\n[[body]]\nname = \"b\"", "3:7", "too far apart"},
 };
+
+TEST(SceneErrors, AnOrientationMadeInCppMustBeComplete) {
+  Scene scene = parse_scene("[time]\nend = 1\n[[body]]\nname = \"b\"", "s.toml");
+  for (const int count : {1, 3, 5}) {
+    scene.bodies[0].orientation.quaternion.assign(static_cast<std::size_t>(count), Expression(0.5));
+    EXPECT_THROW(make_world(scene), InputError) << count;
+  }
+  scene.bodies[0].orientation.quaternion.assign(4, Expression(0.5));
+  EXPECT_NO_THROW(make_world(scene));
+  scene.bodies[0].orientation.quaternion.clear();
+  scene.bodies[0].orientation.axis = Expression("[0, 0, 1]");
+  EXPECT_THROW(make_world(scene), InputError);
+}
+
+TEST(SceneErrors, TheShortestRunHasSamples) {
+  const RunResult result = run(parse_scene("[time]\nend = 1e-322\n[[body]]\nname = \"b\"", "s.toml"));
+  EXPECT_EQ(result.status, RunStatus::finished) << result.failure;
+  EXPECT_EQ(result.end_time, 1e-322);
+}
 
 TEST(SceneErrors, NumbersPointAtTheFaultToo) {
   for (const BadScene& bad : kBadNumbers) {

@@ -1,4 +1,5 @@
 import { describe, expect, it } from "vitest";
+import { isZero } from "../src/quantities";
 import { jumpsOf, samplingTimes } from "../src/sampling";
 import { Track } from "../src/track";
 import { piece } from "./pieces";
@@ -38,6 +39,17 @@ describe("a track", () => {
     const backward = new Track(numbers(piece(2, 1, 2, [2, 1]), piece(1, 0, 1, [1, 1])), 1);
     expect([backward.begin, backward.end]).toEqual([0, 2]);
     for (const t of [0, 0.5, 1, 1.5, 2]) expect(backward.value(backward.pieceAt(t), 0, t)).toBe(t);
+  });
+});
+
+describe("a quantity", () => {
+  it("is zero only if no piece of its run says otherwise, however short", () => {
+    const curve = (track: Track) => [
+      { label: "", color: "", run: 0, method: "", track, value: (t: number, piece: number) => track.value(piece, 0, t) },
+    ];
+    const pulse = [piece(0, 5.02, 0, [0]), piece(5.02, 5.03, 5.02, [100]), piece(5.03, 10, 5.03, [0])];
+    expect(isZero(curve(new Track(numbers(...pulse), 1)))).toBe(false);
+    expect(isZero(curve(new Track(numbers(pulse[0], pulse[2]), 1)))).toBe(true);
   });
 });
 

@@ -24,8 +24,9 @@ class Path {
   /// Throws std::length_error where its degree is above kMaxPolynomialDegree.
   template <int Dim>
   Path(const Segment<Dim>& segment, std::span<const int> indices)
-      : t0_(segment.t0()), t1_(segment.t1()), rows_(static_cast<Eigen::Index>(indices.size()), segment.degree() + 1) {
-    if (segment.degree() > kMaxPolynomialDegree) throw std::length_error("segment of too high a degree");
+      : t0_(segment.t0()),
+        t1_(segment.t1()),
+        rows_(static_cast<Eigen::Index>(indices.size()), checked_degree(segment.degree()) + 1) {
     error_bound_.resize(rows_.rows());
     for (int i = 0; i < count(); ++i) {
       const int component = indices[static_cast<std::size_t>(i)];
@@ -68,6 +69,10 @@ class Path {
   Range range(int i, double from, double to) const { return BernsteinForm(coefficients(i), from, to).value_range(); }
 
  private:
+  static int checked_degree(int degree) {
+    if (degree > kMaxPolynomialDegree) throw std::length_error("segment of too high a degree");
+    return degree;
+  }
   static std::array<int, Count == Eigen::Dynamic ? 0 : static_cast<std::size_t>(Count)> consecutive(int first) {
     std::array<int, static_cast<std::size_t>(Count)> indices;
     for (int& index : indices) index = first++;

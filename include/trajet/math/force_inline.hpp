@@ -2,6 +2,14 @@
 
 // Sanitizers multiply the code that is inlined until compilers choke on it; without speed to win, they go without.
 #if defined(__SANITIZE_ADDRESS__)
+#define TRAJET_SANITIZED
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer)
+#define TRAJET_SANITIZED
+#endif
+#endif
+
+#ifdef TRAJET_SANITIZED
 #define TRAJET_INLINE inline
 #define TRAJET_FLATTEN
 #else

@@ -6,8 +6,7 @@
 
 namespace trajet {
 
-/// The highest degree of the polynomials whose roots are searched. Twice the degree of a Segment fits: squared
-/// distances.
+/// The highest degree of the polynomials whose roots are searched, and of power series: far above that of any Segment.
 inline constexpr int kMaxPolynomialDegree = 80;
 
 /// Half the distance from 1 to the next double: the relative error of one rounded operation.

@@ -31,8 +31,7 @@ class ImplicitStepper {
 
   ImplicitStepper(Rate rate, const StepOptions& options)
       : step_(std::move(rate), {options.rtol, options.atol}), first_step_(options.step.value_or(0.0)) {
-    if (!(options.rtol >= 0.0 && options.atol >= 0.0 && options.rtol + options.atol > 0.0))
-      throw std::invalid_argument("`rtol` and `atol` must not be negative, and not both zero");
+    check_tolerances(options);
   }
 
   void start(double t, const State& q) {
@@ -56,7 +55,7 @@ class ImplicitStepper {
     if (next_step_ == 0.0) next_step_ = std::min(step_.euler_step(), kLongestFirst * distance);
     double h = std::max(next_step_, smallest_step(t0));
     while (true) {
-      const bool lands = h * kStretch >= distance;
+      const bool lands = h * kLandingStretch >= distance;
       const double error = step_.attempt(lands ? t_limit : t0 + direction * h);
       if (lands) h = distance;
       if (error <= 1.0) {
@@ -83,8 +82,6 @@ class ImplicitStepper {
   const StepStatistics& statistics() const { return step_.statistics(); }
 
  private:
-  // A limit this little farther than the step is reached in one: the alternative is a tiny last step.
-  static constexpr double kStretch = 1.01;
   // The first step as a part of the way: a solution that starts as a straight line says nothing about what comes.
   static constexpr double kLongestFirst = 0.1;
   // By how much to shorten a step whose equations were not solved: usually Newton's iteration was not far from

@@ -126,8 +126,7 @@ class QuadratureStepper {
   /// Throws std::invalid_argument for wrong tolerances, or for a law that depends on its own solution.
   QuadratureStepper(Rate rate, Structure structure, const StepOptions& options)
       : rate_(std::move(rate), std::move(structure)), options_(options) {
-    if (!(options.rtol >= 0.0 && options.atol >= 0.0 && options.rtol + options.atol > 0.0))
-      throw std::invalid_argument("`rtol` and `atol` must not be negative, and not both zero");
+    check_tolerances(options);
     const int n = rate_.dimension();
     segment_.resize(n, kDegree + 1);
     trial_.resize(n);
@@ -150,7 +149,7 @@ class QuadratureStepper {
     const double longest = options_.step.value_or(kLongestStep * std::abs(t_limit - start_time_));
     double h = std::min(next_step_, longest);
     while (true) {
-      const bool lands = h * kStretch >= distance;
+      const bool lands = h * kLandingStretch >= distance;
       const double t1 = lands ? t_limit : t_ + direction * h;
       const double error = integrate_to(t1);
       if (lands) h = distance;
@@ -179,8 +178,6 @@ class QuadratureStepper {
   using Rule = detail::KronrodRule;
   static constexpr int kDegree = Rule::kDegree;
   static constexpr double kLongestStep = 1.0 / 16.0;  // of the way
-  // A limit this little farther than the step is reached in one: the alternative is a tiny last step.
-  static constexpr double kStretch = 1.01;
 
   /// Makes segment_ lead from (t_, q_) to t1 and trial_ its end; returns the largest error over its tolerance.
   double integrate_to(double t1) {

@@ -5,12 +5,12 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
-#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "trajet/math/shortest_text.hpp"
 #include "trajet/ode/segment.hpp"
 #include "trajet/ode/step_grid.hpp"
 #include "trajet/ode/stepper.hpp"
@@ -114,11 +114,10 @@ class Rk4DoublingStepper {
 
   std::vector<std::string> warnings() const {
     if (unconverged_ == 0) return {};
-    std::ostringstream text;
-    text << "rk4-doubling: " << unconverged_ << (unconverged_ == 1 ? " interval" : " intervals")
-         << ", the first from t = " << first_unconverged_ << " s, did not reach the relative accuracy " << accuracy_
-         << " with " << kMaxSubsteps << " sub-steps; sub-steps of " << needed_step_ << " s would";
-    return {text.str()};
+    return {"rk4-doubling: " + std::to_string(unconverged_) + (unconverged_ == 1 ? " interval" : " intervals") +
+            ", the first from t = " + shortest_text(first_unconverged_) + " s, did not reach the relative accuracy " +
+            shortest_text(accuracy_) + " with " + std::to_string(kMaxSubsteps) + " sub-steps; sub-steps of " +
+            shortest_text(needed_step_) + " s would"};
   }
 
  private:

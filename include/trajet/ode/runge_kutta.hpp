@@ -134,8 +134,7 @@ class AdaptiveRungeKutta : public RungeKuttaBase<Method, Rate, Dim> {
         rtol_(options.rtol),
         atol_(std::max(options.atol, std::numeric_limits<double>::min())),
         first_step_(options.step.value_or(0.0)) {
-    if (!(options.rtol >= 0.0 && options.atol >= 0.0 && options.rtol + options.atol > 0.0))
-      throw std::invalid_argument("`rtol` and `atol` must not be negative, and not both zero");
+    check_tolerances(options);
   }
 
   void start(double t, const State& q) {
@@ -154,7 +153,7 @@ class AdaptiveRungeKutta : public RungeKuttaBase<Method, Rate, Dim> {
     const double distance = std::abs(t_limit - t0);
     double h = std::max(next_step_, smallest_step(t0));
     while (true) {
-      const bool lands = h * kStretch >= distance;
+      const bool lands = h * kLandingStretch >= distance;
       this->step_.template compute<false, true>(lands ? t_limit : t0 + direction * h, this->rate_);
       this->statistics_.law_evaluations += Base::Step::kInnerEvaluations + 1;
       const double log_error = this->step_.log2_error_norm(atol_, rtol_);
@@ -178,8 +177,6 @@ class AdaptiveRungeKutta : public RungeKuttaBase<Method, Rate, Dim> {
 
  private:
   static constexpr int kErrorPower = error_power<Method>();
-  // A limit this little farther than the step is reached in one: the alternative is a tiny last step.
-  static constexpr double kStretch = 1.01;
 
   /// A first step (s) that by Euler's rule changes the state by a hundredth, smaller where the rate itself changes
   /// fast.

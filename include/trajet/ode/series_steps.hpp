@@ -99,8 +99,6 @@ class SeriesStepper {
   const StepStatistics& statistics() const { return statistics_; }
 
  private:
-  /// A law can change its branch this often at one instant before it counts as undecided there.
-  static constexpr int kMaxBranchChanges = 8;
   static constexpr double kRounding = std::numeric_limits<double>::epsilon();
 
   /// The law on plain numbers.

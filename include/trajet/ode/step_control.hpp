@@ -38,6 +38,9 @@ inline double smallest_step(double t) {
   return std::max(16.0 * std::numeric_limits<double>::epsilon() * std::abs(t), std::numeric_limits<double>::min());
 }
 
+/// A limit this little farther than the step is reached in one: the alternative is a tiny last step.
+inline constexpr double kLandingStretch = 1.01;
+
 /// Chooses the next step from the errors of the last two: Gustafsson's proportional-integral controller,
 /// [HairerWanner1996] IV.2:
 ///

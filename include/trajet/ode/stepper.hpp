@@ -4,6 +4,7 @@
 #include <concepts>
 #include <memory>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -36,6 +37,12 @@ struct StepOptions {
   std::vector<double> nodes{};  ///< fixed-step methods: the times of the step ends, for unequal steps
   int order = 0;                ///< series methods: the order; 0 lets the method choose
 };
+
+/// Throws std::invalid_argument for tolerances that an error-controlled method cannot keep.
+inline void check_tolerances(const StepOptions& options) {
+  if (!(options.rtol >= 0.0 && options.atol >= 0.0 && options.rtol + options.atol > 0.0))
+    throw std::invalid_argument("`rtol` and `atol` must not be negative, and not both zero");
+}
 
 /// A method at work on one system: it holds the current time and state and moves them on, one accepted step at a time.
 ///

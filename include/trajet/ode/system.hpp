@@ -6,6 +6,9 @@
 
 namespace trajet {
 
+/// A law can change its branch this often at one instant before it counts as undecided there.
+inline constexpr int kMaxBranchChanges = 8;
+
 /// The problem dq/dt = g(q, t) as a run-time object: what a compiled scene hands to the integrators.
 ///
 /// A C++ law that is a generic lambda needs none of this: the steppers take it directly.

@@ -6,6 +6,8 @@
 #include <limits>
 #include <numbers>
 #include <optional>
+#include <stdexcept>
+#include <string>
 #include <type_traits>
 #include <utility>
 
@@ -54,12 +56,17 @@ class TaylorStepper {
   using Number = typename Expansion::Number;  // of the coefficients and of the state between steps
   static constexpr int kDimension = State::RowsAtCompileTime;
 
+  /// Reads `rtol`, `atol`, `order` and `step`. Throws std::invalid_argument for wrong tolerances, or for an order above
+  /// kMaxTaylorOrder.
   TaylorStepper(Expansion expansion, const StepOptions& options)
       : expansion_(std::move(expansion)),
         options_(options),
         order_(options.order > 0 ? options.order : taylor_order(options.rtol > 0.0 ? options.rtol : options.atol)),
         degree_(expansion_.polynomial_degree()),
         exact_(degree_ >= 0 && degree_ <= kMaxTaylorOrder) {
+    check_tolerances(options);
+    if (order_ > kMaxTaylorOrder)
+      throw std::invalid_argument("the order of a series is at most " + std::to_string(kMaxTaylorOrder));
     order_ = exact_ ? std::max(degree_, 1) : std::clamp(order_, 2, kMaxTaylorOrder);
     inverse_order_ = 1.0 / order_;
     inverse_order_less_one_ = 1.0 / (order_ - 1);
@@ -133,8 +140,6 @@ class TaylorStepper {
   };
   using Fallback = AdaptiveRungeKutta<Dopri5Tableau, Rate, kDimension>;
 
-  /// A law can change its branch this often at one instant before it counts as undecided there.
-  static constexpr int kMaxBranchChanges = 8;
   /// A step this much shorter than the last one is compared with what Runge-Kutta can do: near a singular point of the
   /// series, not of the solution, that is more.
   static constexpr double kShortStep = 1e-3;

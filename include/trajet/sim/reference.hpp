@@ -34,6 +34,8 @@ class Reference {
 class ClosedFormReference : public Reference {
  public:
   explicit ClosedFormReference(const World& world);
+  ClosedFormReference(const ClosedFormReference&) = delete;  // its evaluators point to its closed forms
+  ClosedFormReference& operator=(const ClosedFormReference&) = delete;
 
   std::optional<double> end_time() const override { return std::nullopt; }
   bool ends_at_jumps() const override { return true; }

@@ -77,7 +77,7 @@ struct NamedValue {
   double value = 0.0;
 };
 
-/// All bodies and extra states at one time. `after_impact` marks the second of two samples at an impact's time.
+/// All bodies and extra states at one time. An impact has two: before and after it.
 struct Sample {
   double time = 0.0;
   std::vector<BodyState> bodies;

@@ -1,0 +1,37 @@
+#include "start_check.hpp"
+
+#include <variant>
+
+#include "trajet/geom/distance.hpp"
+
+namespace trajet {
+namespace {
+
+/// m; how far p is outside the matter of a shape, negative inside; of a thin shape its distance.
+double gap(const Shape& shape, const Vector3& p) {
+  return std::visit(
+      [&](const auto& s) {
+        if constexpr (requires { signed_distance(s, p); }) {
+          return signed_distance(s, p);
+        } else {
+          return distance(s, p);
+        }
+      },
+      shape);
+}
+
+}  // namespace
+
+void check_starts(const World& world) {
+  constexpr double kRounding = 1e-9;  // of the lengths that the gap is made of, and far above what they round to
+  for (const World::Body& body : world.bodies) {
+    if (!body.is_ball) continue;
+    const Vector3 position = world.groups[static_cast<std::size_t>(body.group)].start.segment<3>(body.offset);
+    const double open = kRounding * (position.norm() + body.radius);
+    for (const World::Obstacle& obstacle : world.obstacles)
+      if (gap(obstacle.shape, position) - body.radius < -open)
+        throw InputError(body.where, "body '" + body.name + "' starts inside obstacle '" + obstacle.name + "'");
+  }
+}
+
+}  // namespace trajet

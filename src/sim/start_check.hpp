@@ -1,0 +1,11 @@
+#pragma once
+
+#include "trajet/sim/world.hpp"
+
+namespace trajet {
+
+/// Throws InputError at a point or sphere that starts inside an obstacle, by more than what rounding leaves open: that
+/// much the run itself decides, which knows where the body goes.
+void check_starts(const World& world);
+
+}  // namespace trajet
