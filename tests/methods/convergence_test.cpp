@@ -32,7 +32,7 @@ TYPED_TEST_SUITE(Convergence, FixedStepMethods);
 template <class Method>
 void expect_order(double t0, double t1) {
   using Tableau = typename Method::Tableau;
-  const int first = Tableau::kOrder == 1 ? 800 : Tableau::kOrder < 5 ? 200 : 50;
+  const int first = Tableau::kOrder == 1 ? 800 : Tableau::kOrder < 5 ? 200 : 100;
   State coarse = end_error<Method>(t0, t1, first);
   int compared = 0;
   for (int steps = 2 * first; steps <= 8 * first; steps *= 2) {
