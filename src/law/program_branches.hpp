@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <span>
 
 #include "recurrence_step.hpp"
@@ -38,7 +39,14 @@ template <class T>
 void ProgramExpansionT<T>::decide_interval(const Step& step, Branch& branch, T x) {
   const bool forced = branch.forced_sign.has_value();
   const double place = forced ? branch.forced_border : static_cast<double>(x);
-  if (step.opcode == Opcode::floor) {
+  if (step.opcode == Opcode::tan) {
+    // from pole to pole, at odd multiples of pi/2
+    const double pole = place / std::numbers::pi - 0.5;
+    branch.lower = forced ? std::nearbyint(pole) : std::floor(pole);
+    if (forced && *branch.forced_sign < 0.0) branch.lower -= 1.0;
+    branch.upper = (branch.lower + 1.5) * std::numbers::pi;
+    branch.lower = (branch.lower + 0.5) * std::numbers::pi;
+  } else if (step.opcode == Opcode::floor) {
     branch.lower = std::floor(place);
     if (forced && *branch.forced_sign < 0.0) branch.lower -= 1.0;
     branch.upper = branch.lower + 1.0;
@@ -107,6 +115,30 @@ void ProgramExpansionT<T>::run_branch(const Step& step, Branch& branch, int n) {
         r[n] = recurrence::norm3(a, b, c, r, u[0], n);
       }
       break;
+    case Opcode::asin:
+    case Opcode::acos: {  // pi/2 - asin a: v = asin a; u = sqrt(1 - a^2)
+      const bool is_cosine = step.opcode == Opcode::acos;
+      T* angle = is_cosine ? step.own[1] : r;
+      detail::asin_step(a, angle, u, n);
+      if (is_cosine) r[n] = n == 0 ? std::acos(a[0]) : -angle[n];
+      branch.sign = 1.0;
+      branch.starts_at_zero = u[0] == 0.0;
+      break;
+    }
+    case Opcode::atan2:  // the cut: y = 0, x < 0
+      if (n > 0) {
+        recurrence::atan2(a, b, r, u, n);
+      } else {
+        r[0] = angle_on_side(a[0], b[0], decide_sign(branch, 0));
+        u[0] = a[0] * a[0] + b[0] * b[0];
+      }
+      break;
+    case Opcode::tan:
+      if (n > 0) return recurrence::tan(a, r, u, n);
+      decide_interval(step, branch, a[0]);
+      r[0] = branch.starts_at_zero ? std::numeric_limits<T>::quiet_NaN() : std::tan(a[0]);
+      u[0] = 1.0 + r[0] * r[0];
+      break;
     case Opcode::floor:
       if (n == 0) decide_interval(step, branch, a[0]);
       r[n] = n == 0 ? branch.lower : 0.0;
@@ -148,7 +180,10 @@ BranchTime ProgramExpansionT<T>::end_of_branch(const Branch& branch, double dura
     const bool starts_here = branch.starts_at_zero && std::abs(distance[0]) < 0.5 * (branch.upper - branch.lower);
     const BranchTime change =
         first_sign_change(std::span(distance).first(series.size()), 1.0, starts_here, first.duration);
-    if (change.index < 0) continue;
+    if (change.index < 0) {
+      if (change.duration != first.duration) first = change;
+      continue;
+    }
     first = {change.duration, 0, sign * change.sign_after};
     border = end;
   }
@@ -165,11 +200,15 @@ double ProgramExpansionT<T>::duration_until_branch(double duration) {
   for (std::size_t i = 0; i < branches_.size(); ++i) {
     double border = 0.0;
     const BranchTime end = end_of_branch(branches_[i], first.duration, border);
-    if (end.index < 0 || std::isnan(end.sign_after)) continue;  // not-a-number: the caller sees it in the coefficients
+    if (end.index < 0) {
+      if (end.duration != first.duration) first = end;
+      continue;
+    }
+    if (std::isnan(end.sign_after)) continue;  // the caller sees it in the coefficients
     first = {end.duration, static_cast<int>(i), end.sign_after};
     first_border = border;
   }
-  if (first.index < 0) return duration;
+  if (first.index < 0) return first.duration * row_direction_;
   // What is known of the start stays known as long as the time does not move on: several branches may end together.
   if (std::abs(first.duration) > detail::kSameTime * std::abs(start_)) forget_forced_branches();
   force(branches_[static_cast<std::size_t>(first.index)], first.sign_after, first_border);

@@ -1,9 +1,11 @@
 #include "trajet/law/program_expansion.hpp"
 
 #include <cassert>
+#include <limits>
 #include <type_traits>
 #include <utility>
 
+#include "hidden_poles.hpp"
 #include "program_branches.hpp"
 #include "recurrence_step.hpp"
 
@@ -22,16 +24,20 @@ ProgramExpansionT<T>::ProgramExpansionT(Program program)
   assert(program_.input_count == dimension() + 1);
   end_state_.resize(program_.outputs.size());
   end_tolerance_.resize(program_.outputs.size());
-  for (const Instruction& instruction : program_.instructions) {
+  const std::vector<bool> hides_poles = detail::find_hidden_poles(program_);
+  for (std::size_t i = 0; i < program_.instructions.size(); ++i) {
+    const Instruction& instruction = program_.instructions[i];
     const int own = row_count_;
     row_count_ += detail::scratch_count(instruction.opcode);
-    if (const auto branch = find_branch(instruction, own)) branches_.push_back(*branch);
+    const auto branch = find_branch(instruction, own, hides_poles[i]);
+    branch_of_.push_back(branch ? static_cast<int>(branches_.size()) : -1);
+    if (branch) branches_.push_back(*branch);
   }
 }
 
-/// Where an instruction branches, if it does; its first own row is `own`.
 template <class T>
-auto ProgramExpansionT<T>::find_branch(const Instruction& instruction, int own) -> std::optional<Branch> {
+auto ProgramExpansionT<T>::find_branch(const Instruction& instruction, int own, bool hides_pole)
+    -> std::optional<Branch> {
   Branch branch;
   switch (instruction.opcode) {
     case Opcode::min:
@@ -46,6 +52,16 @@ auto ProgramExpansionT<T>::find_branch(const Instruction& instruction, int own) 
       branch.kind = Branch::Kind::sign;
       branch.function = instruction.a;
       return branch;
+    case Opcode::atan2:
+      branch.kind = Branch::Kind::sign;
+      branch.function = instruction.a;
+      return branch;
+    case Opcode::divide:
+    case Opcode::constant_over:
+      if (!hides_pole) return std::nullopt;
+      branch.kind = Branch::Kind::sign;
+      branch.function = instruction.opcode == Opcode::divide ? instruction.b : instruction.a;
+      return branch;
     case Opcode::equal:
       branch.kind = Branch::Kind::nonzero;
       branch.function = own;
@@ -59,8 +75,14 @@ auto ProgramExpansionT<T>::find_branch(const Instruction& instruction, int own) 
       branch.kind = Branch::Kind::positive;
       branch.function = instruction.result;
       return branch;
+    case Opcode::asin:
+    case Opcode::acos:
+      branch.kind = Branch::Kind::positive;
+      branch.function = own;  // sqrt(1 - a^2)
+      return branch;
     case Opcode::floor:
     case Opcode::table:
+    case Opcode::tan:
       branch.kind = Branch::Kind::interval;
       branch.function = instruction.a;
       return branch;
@@ -82,8 +104,8 @@ template <class T>
 void ProgramExpansionT<T>::place_rows() {
   steps_.clear();
   int own = program_.slot_count;
-  int branch = 0;
-  for (const Instruction& instruction : program_.instructions) {
+  for (std::size_t i = 0; i < program_.instructions.size(); ++i) {
+    const Instruction& instruction = program_.instructions[i];
     const bool is_table = instruction.opcode == Opcode::table;  // whose b is no slot
     Step step{.opcode = instruction.opcode,
               .constant = instruction.constant,
@@ -93,9 +115,9 @@ void ProgramExpansionT<T>::place_rows() {
               .result = row(instruction.result),
               .own = {},
               .table = is_table ? program_.tables[static_cast<std::size_t>(instruction.b)].get() : nullptr,
-              .branch = find_branch(instruction, own) ? branch++ : -1};
-    for (int i = 0; i < detail::scratch_count(instruction.opcode); ++i)
-      step.own[static_cast<std::size_t>(i)] = row(own++);
+              .branch = branch_of_[i]};
+    for (int k = 0; k < detail::scratch_count(instruction.opcode); ++k)
+      step.own[static_cast<std::size_t>(k)] = row(own++);
     steps_.push_back(step);
   }
 }
@@ -137,6 +159,14 @@ template <class T>
 template <class Order>
 void ProgramExpansionT<T>::run(Order n) {
   for (const Step& step : steps_) {
+    if (step.branch >= 0 && detail::may_hide_pole(step.opcode)) {
+      Branch& pole = branches_[static_cast<std::size_t>(step.branch)];
+      decide_sign(pole, n);
+      if (pole.starts_at_zero) {
+        step.result[n] = std::numeric_limits<T>::quiet_NaN();  // no series begins at a pole
+        continue;
+      }
+    }
     if (detail::common_step(step, n)) continue;
     if (step.branch >= 0) {
       run_branch(step, branches_[static_cast<std::size_t>(step.branch)], n);

@@ -184,32 +184,15 @@ void smooth_step(const Step& step, int n) {
     case Opcode::sinh_cosh:
       sinh_cosh_step(a, r, b, n);
       break;
-    case Opcode::tan:
-      if (n > 0) return recurrence::tan(a, r, u, n);
-      r[0] = std::tan(a[0]);
-      u[0] = 1.0 + r[0] * r[0];
-      break;
     case Opcode::tanh:
       if (n > 0) return recurrence::tanh(a, r, u, n);
       r[0] = std::tanh(a[0]);
       u[0] = (1.0 - r[0]) * (1.0 + r[0]);
       break;
-    case Opcode::asin:
-      asin_step(a, r, u, n);
-      break;
-    case Opcode::acos:  // pi/2 - asin a: v = asin a
-      asin_step(a, v, u, n);
-      r[n] = n == 0 ? std::acos(a[0]) : -v[n];
-      break;
     case Opcode::atan:
       if (n > 0) return recurrence::atan(a, r, u, n);
       r[0] = std::atan(a[0]);
       u[0] = 1.0 + a[0] * a[0];
-      break;
-    case Opcode::atan2:
-      if (n > 0) return recurrence::atan2(a, b, r, u, n);
-      r[0] = std::atan2(a[0], b[0]);
-      u[0] = a[0] * a[0] + b[0] * b[0];
       break;
     default:  // those of common_step, and those with branches
       break;

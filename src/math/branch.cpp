@@ -1,5 +1,6 @@
 #include "trajet/math/branch.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -15,6 +16,28 @@ double largest_change(std::span<const double> series, double h) {
   double sum = 0.0;
   for (std::size_t k = series.size() - 1; k >= 1; --k) sum = (sum + std::abs(series[k])) * std::abs(h);
   return sum;
+}
+
+/// How far, up to `duration` > 0, a truncated series can tell where its function is zero: as long as its last two terms
+/// are small beside the largest one before them. Beyond its radius of convergence its zeros mean nothing.
+double told_duration(std::span<const double> series, double duration) {
+  constexpr double kSmall = 0.01;
+  constexpr double kShorter = 0.7;
+  constexpr int kMaxTries = 200;
+  if (series.size() < 4) return duration;
+  for (int tries = 0; tries < kMaxTries; ++tries, duration *= kShorter) {
+    double power = 1.0, largest = 0.0, last = 0.0;
+    for (std::size_t k = 0; k < series.size(); ++k, power *= duration) {
+      const double term = std::abs(series[k]) * power;
+      if (k + 2 < series.size()) {
+        largest = std::max(largest, term);
+      } else {
+        last += term;
+      }
+    }
+    if (!(last > kSmall * largest)) break;  // nor where any of it is not a number
+  }
+  return duration;
 }
 
 }  // namespace
@@ -38,8 +61,9 @@ BranchTime first_sign_change(std::span<const double> series, double sign, bool s
   // the search runs forward in time: reflected where the motion runs backward
   std::array<double, kMaxPolynomialDegree + 1> reflected;
   for (std::size_t k = 0; k < rest.size(); ++k) reflected[k] = k % 2 == 1 ? direction * rest[k] : rest[k];
-  const std::optional<Root> root = first_root(std::span(reflected).first(rest.size()), 0.0, std::abs(duration));
-  if (!root) return none;
+  const double told = told_duration(rest, std::abs(duration));
+  const std::optional<Root> root = first_root(std::span(reflected).first(rest.size()), 0.0, told);
+  if (!root) return told < std::abs(duration) ? BranchTime{direction * told, -1, 0.0} : none;
   return {direction * root->time, 0, -sign_at_start};
 }
 

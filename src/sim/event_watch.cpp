@@ -59,7 +59,7 @@ void EventWatch::search(const Segment<>& segment, double from) {
   next_ = {};
   const Path<Eigen::Dynamic> path(segment, inputs_);
   const ComposedFunction function(path, Function{&enclosures_, &inputs_, &state_}, from - segment.t0(),
-                                  segment.duration(), std::exchange(at_zero_, 0.0));
+                                  segment.duration(), std::exchange(at_zero_, 0.0), true);
   if (sign_ == 0) {
     const FunctionSample begin = function.at(function.begin());
     if (std::abs(begin.jet.value) > begin.tolerance) sign_ = static_cast<int>(sign(begin.jet.value));
@@ -68,6 +68,10 @@ void EventWatch::search(const Segment<>& segment, double from) {
     if (root.kind == RootKind::unresolved) {
       next_ = {true, segment.t0() + root.time, 0.0, 0, true};
       return false;
+    }
+    if (root.kind == RootKind::gap) {
+      sign_ = 0;
+      return true;
     }
     // what was seen last decides: a root that was counted lies ahead again where `from` is rounded
     const int before = sign_ != 0 || root.at_begin ? sign_ : root.sign_before;

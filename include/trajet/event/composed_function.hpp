@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <algorithm>
+#include <cmath>
 
 #include "trajet/event/path.hpp"
 #include "trajet/math/bernstein.hpp"
@@ -22,15 +23,25 @@ class ComposedFunction {
   using Piece = IntervalJet;
 
   /// Between the times tau = `begin` and tau = `end` of the path. Refers to `path`. `touch_tolerance` (unit of g):
-  /// values as small count as zero; what rounding needs is added.
-  ComposedFunction(const Path<Count>& path, G g, double begin, double end, double touch_tolerance = 0.0)
-      : path_(path), g_(std::move(g)), begin_(begin), end_(end), touch_tolerance_(touch_tolerance) {}
+  /// values as small count as zero; what rounding needs is added. `may_be_undefined`: g may have gaps
+  /// or poles.
+  ComposedFunction(const Path<Count>& path, G g, double begin, double end, double touch_tolerance = 0.0,
+                   bool may_be_undefined = false)
+      : path_(path),
+        g_(std::move(g)),
+        begin_(begin),
+        end_(end),
+        touch_tolerance_(touch_tolerance),
+        may_be_undefined_(may_be_undefined) {}
 
   double begin() const { return begin_; }
   double end() const { return end_; }
+  bool may_be_undefined() const { return may_be_undefined_; }
 
   IntervalJet piece(double from, double to) const {
     IntervalJet f = evaluate(Interval::hull(from, to), [&](int i) { return enclose(path_.coefficients(i), from, to); });
+    // over a pole the derivatives tell nothing
+    if (std::isinf(f[0].lower()) || std::isinf(f[0].upper())) f[1] = f[2] = Interval::whole();
     const double middle = 0.5 * from + 0.5 * to;
     const IntervalJet center = at_time(middle);
     const Interval offset = Interval::hull(from, to) - Interval(middle);
@@ -89,6 +100,7 @@ class ComposedFunction {
   double begin_;
   double end_;
   double touch_tolerance_;
+  bool may_be_undefined_;
 };
 
 }  // namespace trajet

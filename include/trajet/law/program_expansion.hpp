@@ -72,7 +72,8 @@ class ProgramExpansionT {
     int branch;  ///< index of its Branch, or -1
   };
 
-  static std::optional<Branch> find_branch(const Instruction& instruction, int own);
+  /// Where an instruction branches, if it does; its first own row is `own`. `hides_pole`: see find_hidden_poles.
+  static std::optional<Branch> find_branch(const Instruction& instruction, int own, bool hides_pole);
   T* row(int index) { return rows_.data() + static_cast<std::ptrdiff_t>(index) * stride_; }
   void reserve(int order);
   /// Where the rows of each instruction are, after they have moved.
@@ -96,6 +97,7 @@ class ProgramExpansionT {
   Program program_;
   std::vector<Step> steps_;  // one for each instruction
   std::vector<Branch> branches_;
+  std::vector<int> branch_of_;  // for each instruction: an index of branches_, or -1
   int row_count_ = 0;
   int stride_ = 0;
   /// Taylor coefficients in s = row_direction (time - start): slots of the program, then scratch; (row_count x stride)

@@ -10,7 +10,8 @@ namespace trajet {
 
 /// When a function that decides a law's branch changes sign.
 struct BranchTime {
-  double duration;    ///< from the point of expansion, signed like the search; the whole search where nothing was found
+  double duration;    ///< from the point of expansion, signed like the search; where nothing was found, how far the
+                      ///< series tells: at most the whole search
   int index;          ///< which function: >= 0 where a change was found, else negative
   double sign_after;  ///< behind the change
 };

@@ -201,6 +201,13 @@ inline IntervalJet step_function(const Interval& value) {
 }
 }  // namespace detail
 
+/// Jumps from pi to -pi behind the origin.
+inline IntervalJet atan2(const IntervalJet& y, const IntervalJet& x) {
+  IntervalJet angle = atan2<Interval, 2>(y, x);
+  if (!(x[0].lower() > 0.0) && !(y[0].lower() > 0.0) && !(y[0].upper() < 0.0)) angle[1] = angle[2] = Interval::whole();
+  return angle;
+}
+
 inline IntervalJet sign(const IntervalJet& x) { return detail::step_function(sign(x[0])); }
 inline IntervalJet floor(const IntervalJet& x) { return detail::step_function(floor(x[0])); }
 

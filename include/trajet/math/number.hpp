@@ -34,6 +34,16 @@ inline bool equal(long double a, long double b) { return a == b; }
 inline double sign(long double x) { return x > 0.0L ? 1.0 : x < 0.0L ? -1.0 : static_cast<double>(x); }
 inline long double norm3(long double x, long double y, long double z) { return std::sqrt(x * x + y * y + z * z); }
 
+/// The angle of the point (x, y), from -pi to pi, by a y of which the side of zero is known better than by its own
+/// digits.
+///
+/// \param side  -1 or 1; 0: y itself tells
+template <class T>
+T angle_on_side(T y, T x, double side) {
+  const T angle = std::atan2(y, x);
+  return side != 0.0 && x < 0.0 ? std::copysign(angle, static_cast<T>(side)) : angle;
+}
+
 /// The plain number that constant factors of a number type have: none may be coarser than the type.
 template <class T>
 using Factor = std::conditional_t<std::is_same_v<T, long double>, long double, double>;

@@ -153,9 +153,12 @@ template <class T, int N>
 TRAJET_INLINE Replay<T, N> asin(const Replay<T, N>& x) {
   using std::asin, std::sqrt;
   if (x.is_constant()) return asin(x.constant());
-  return detail::replay_pair(
+  const Replay<T, N> angle = detail::replay_pair(
       x, [](const T& v, T& y, T& r) { y = asin(v), r = sqrt((1.0 - v) * (1.0 + v)); },
       [](const T* a, T* y, T* r, auto n) { recurrence::asin<T>(a, y, r, n); });
+  // where x touches 1 or -1 the angle turns back; its analytic continuation goes on
+  detail::branch_sign(angle.neighbour(angle.slot() == 0 ? 0 : angle.slot() + 1));
+  return angle;
 }
 template <class T, int N>
 TRAJET_INLINE Replay<T, N> acos(const Replay<T, N>& x) {
@@ -175,12 +178,12 @@ namespace detail {
 
 template <class T, int N>
 TRAJET_INLINE Replay<T, N> angle_of_slots(const Replay<T, N>& y, const Replay<T, N>& x) {
-  using std::atan2;
+  const double side = branch_sign(y);  // of the cut
   return Replay<T, N>::record_pair(x, [&](T* a, T* w) {
     const T* y_slot = y.coefficients();
     const T* x_slot = x.coefficients();
     if constexpr (N == 0)
-      a[0] = atan2(y_slot[0], x_slot[0]), w[0] = x_slot[0] * x_slot[0] + y_slot[0] * y_slot[0];
+      a[0] = angle_on_side(y_slot[0], x_slot[0], side), w[0] = x_slot[0] * x_slot[0] + y_slot[0] * y_slot[0];
     else
       recurrence::atan2<T>(y_slot, x_slot, a, w, Replay<T, N>::kOrder);
   });

@@ -15,6 +15,7 @@ enum class RootKind {
   crossing,    ///< the sign changes
   touch,       ///< value and rate vanish together within the tolerance, the sign stays
   unresolved,  ///< neither a root nor its absence can be shown here
+  gap,         ///< from here on the function is not finite; only of functions that may be so
 };
 
 /// A time at which a function is zero within its tolerance. `begin` to `end` is the direction of travel.
@@ -52,6 +53,8 @@ struct FunctionSample {
 ///   function and its derivatives there; of the derivatives only the signs matter, so that each may carry a positive
 ///   factor.
 /// - `at(t)` evaluates at one time.
+/// - `may_be_undefined()`, if it has that: whether it may have gaps and poles. They are then passed over, else what is
+///   not finite is unresolved.
 template <class F>
 concept EnclosedFunction = requires(const F& f, const typename F::Piece& piece, double t) {
   { f.begin() } -> std::convertible_to<double>;
@@ -116,14 +119,16 @@ double refine_root(double a, double value_a, double b, double value_b, Evaluate&
 template <EnclosedFunction F, class Visitor>
 class RootSearch {
  public:
-  RootSearch(const F& function, Visitor& visit) : function_(function), visit_(visit) {}
+  RootSearch(const F& function, Visitor& visit) : function_(function), visit_(visit) {
+    if constexpr (requires { function.may_be_undefined(); }) has_gaps_ = function.may_be_undefined();
+  }
 
   SearchStatus run() {
     const typename F::Piece whole = function_.piece(function_.begin(), function_.end());
     const Point begin = point(function_.begin());
     const Point end = point(function_.end());
     const double tolerance = std::max(begin.tolerance, end.tolerance);
-    if (!std::isfinite(tolerance)) {
+    if (!has_gaps_ && !std::isfinite(tolerance)) {
       give_up(begin.time, end.time);
       return status_;
     }
@@ -131,6 +136,7 @@ class RootSearch {
     flat_enough_ = 2.0 * tolerance;
     mark(begin);
     search(whole, begin, end, 0);
+    if (!stopped_) leave_gap(std::numeric_limits<double>::infinity());
     if (!stopped_ && cluster_) {
       if (cluster_->at_begin) return SearchStatus::identically_zero;
       close_cluster(sign_beyond(end, +1.0), true);
@@ -159,7 +165,15 @@ class RootSearch {
   static constexpr int kMaxDepth = 60;
   static constexpr int kMaxPieces = 1 << 16;
 
-  Point point(double t) const { return {function_.at(t), t}; }
+  Point point(double t) const {
+    Point at{function_.at(t), t};
+    if (has_gaps_ && !(std::isfinite(at.tolerance) && std::isfinite(at.jet.value))) {
+      at.jet.value = std::numeric_limits<double>::quiet_NaN();
+      at.tolerance = 0.0;
+    }
+    return at;
+  }
+  bool is_in_gap(const Point& at) const { return has_gaps_ && std::isnan(at.jet.value); }
 
   static bool is_definite(const Range& range, double tolerance) {
     return range.lower > tolerance || range.upper < -tolerance;
@@ -172,15 +186,19 @@ class RootSearch {
   void search(const Piece& piece, const Point& left, const Point& right, int depth) {
     ++pieces_;
     const Range value = function_.value_range(piece);
-    if (is_definite(value, std::max(left.tolerance, right.tolerance)))
-      return mark_definite(value.lower > 0.0 ? 1 : -1, right);
-    if (is_within(value, 2.0 * std::min(left.tolerance, right.tolerance))) return mark_flat(left, right);
-    if (excludes_zero(function_.rate_range(piece))) return mark_monotone(left, right);
-    if (excludes_zero(function_.curvature_range(piece))) return mark_curved(left, right);
+    const bool has_gap = is_in_gap(left) || is_in_gap(right);
+    if (has_gap && std::isnan(value.lower)) return mark(right);  // nowhere defined
+    if (!has_gap) {
+      if (is_definite(value, std::max(left.tolerance, right.tolerance)))
+        return mark_definite(value.lower > 0.0 ? 1 : -1, right);
+      if (is_within(value, 2.0 * std::min(left.tolerance, right.tolerance))) return mark_flat(left, right);
+      if (excludes_zero(function_.rate_range(piece))) return mark_monotone(left, right);
+      if (excludes_zero(function_.curvature_range(piece))) return mark_curved(left, right);
+    }
 
     const double middle_time = 0.5 * left.time + 0.5 * right.time;
     if (depth == kMaxDepth || middle_time == left.time || middle_time == right.time) {
-      return mark_smallest(value, left, right);
+      return has_gap ? mark(right) : mark_smallest(value, left, right);
     }
     if (pieces_ > kMaxPieces) return give_up(left.time, right.time);
     const Point middle = point(middle_time);
@@ -250,6 +268,8 @@ class RootSearch {
   }
 
   void mark(const Point& at, bool is_extremum = false) {
+    if (is_in_gap(at)) return mark_gap(at);
+    leave_gap(at.time);
     if (std::abs(at.jet.value) <= at.tolerance) {
       extend_cluster(at, is_extremum);
     } else {
@@ -257,10 +277,28 @@ class RootSearch {
     }
   }
 
+  void mark_gap(const Point& at) {
+    cluster_.reset();
+    if (!gap_begin_) gap_begin_ = last_definite_time_.value_or(at.time);
+  }
+
+  /// What was before a gap says nothing about what comes behind, but over a pole, where only rounding makes a gap, the
+  /// function jumps.
+  void leave_gap(double time) {
+    if (!gap_begin_) return;
+    constexpr double kPole = 1e-12;
+    if (std::abs(time - *gap_begin_) > kPole * std::abs(function_.end() - function_.begin())) {
+      last_sign_ = 0;
+      visit_root({*gap_begin_, 0.0, RootKind::gap, 0, 0, false, false});
+    }
+    gap_begin_.reset();
+  }
+
   void mark_definite(int sign, const Point& at) {
     if (last_sign_ * sign < 0 && !cluster_) extend_cluster(at, false);
     if (cluster_) close_cluster(sign, false);
     last_sign_ = sign;
+    last_definite_time_ = at.time;
   }
 
   bool cluster_has_crossing() const { return cluster_ && cluster_->crossing; }
@@ -314,6 +352,9 @@ class RootSearch {
 
   const F& function_;
   Visitor& visit_;
+  bool has_gaps_ = false;
+  std::optional<double> gap_begin_;
+  std::optional<double> last_definite_time_;
   std::optional<Cluster> cluster_;
   double flat_enough_ = 0.0;
   int last_sign_ = 0;

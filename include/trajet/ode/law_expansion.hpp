@@ -58,9 +58,12 @@ class LawExpansion {
       const bool starts_at_zero = i < tape_.forced_signs().size() && tape_.forced_signs()[i] != 0.0;
       const BranchTime time = first_sign_change(detail::in_doubles(tape_.slot(branch.slot), order_, room), branch.sign,
                                                 starts_at_zero, first.duration);
-      if (time.index >= 0) first = {time.duration, static_cast<int>(i), time.sign_after};
+      if (time.index >= 0)
+        first = {time.duration, static_cast<int>(i), time.sign_after};
+      else if (time.duration != first.duration)
+        first = time;
     }
-    if (first.index < 0) return duration;
+    if (first.index < 0) return first.duration;
     tape_.forced_signs().assign(tape_.branches().size(), 0.0);
     tape_.forced_signs()[static_cast<std::size_t>(first.index)] = first.sign_after;
     branch_time_ = start_time_ + first.duration;

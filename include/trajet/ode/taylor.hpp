@@ -88,7 +88,7 @@ class TaylorStepper {
       expansion_.expand(t_, q_, order_, series().data());
       if constexpr (kIsExtended) segment_.coefficients() = series_.template cast<double>();
       ++statistics_.law_evaluations;
-      step = exact_ ? remaining : std::copysign(step_within_tolerance(t_limit), remaining);
+      step = exact_ ? whole_way(remaining) : std::copysign(step_within_tolerance(t_limit), remaining);
       step = expansion_.duration_until_branch(step);
       // a branch that changes at once: expand again, behind it
       if (!(std::abs(step) < smallest_step(t_))) break;
@@ -156,12 +156,17 @@ class TaylorStepper {
     return largest;
   }
 
+  /// The step of a polynomial: all that remains, unless there is none because the law is not finite here.
+  double whole_way(double remaining) const {
+    return segment_.coefficients().allFinite() ? remaining : std::numeric_limits<double>::quiet_NaN();
+  }
+
   double step_within_tolerance(double t_limit) {
     const double remaining = std::abs(t_limit - t_);
-    double finite = 0.0;  // becomes not-a-number with any coefficient that is not finite
+    double finite = 0.0;  // becomes not-a-number with a rate, or a last term, that is not finite
     for (int i = 0; i < segment_.dimension(); ++i) {
       inverse_tolerance_[i] = 1.0 / (options_.atol + options_.rtol * std::abs(segment_.coefficients()(i, 0)));
-      finite += 0.0 * segment_.coefficients()(i, order_);
+      finite += 0.0 * segment_.coefficients()(i, 1) + 0.0 * segment_.coefficients()(i, order_);
     }
     if (finite != 0.0) return std::numeric_limits<double>::quiet_NaN();
     // h = min over the last two orders k of e_k^(-1/k), where e_k is the weighted coefficient
