@@ -224,6 +224,21 @@ TEST(ExitCodes, AWrongSceneLeavesEarlierFilesAlone) {
   EXPECT_EQ(read_text(earlier), "{}");
 }
 
+TEST(ExitCodes, AnAnimationOfTooManyKeysIsRefusedBeforeAnythingIsWritten) {
+  const TemporaryFolder folder;
+  const std::string scene =
+      folder.write("s.toml", "[time]\nend = 30000\n[[body]]\nname = \"b\"\nvelocity = [1, 0, 0]\n");
+  const std::string earlier = folder.write("r.glb", "earlier");
+  const ProgramResult result = run_trajet({"run", scene, "--glb", earlier, "--csv", folder.file("r.csv")});
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_EQ(result.err,
+            "--fps: error: 60 keys a second for 30000 s are more keys than the 1e+06 that an animation may have: "
+            "--fps 33.3 or less, or an earlier --end expected\n");
+  EXPECT_EQ(read_text(earlier), "earlier");
+  EXPECT_FALSE(std::filesystem::exists(folder.file("r.csv")));
+  EXPECT_EQ(run_trajet({"run", scene, "--glb", earlier, "--fps", "33.3"}).exit_code, 0);
+}
+
 TEST(Check, FindsWhatOnlyTheMeaningOfAnExpressionTells) {
   struct Case {
     const char* text;
