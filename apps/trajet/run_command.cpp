@@ -40,7 +40,7 @@ int exit_code(RunStatus status) {
 
 namespace {
 
-/// Whether the animation of a run of that duration (s) has no more keys than may be.
+/// Throws InputError where the animation of a run of that duration (s) would have too many keys.
 void check_animation(double duration, double fps) {
   if (duration * fps <= kMostAnimationKeys) return;
   // rounded down: what is proposed shall do

@@ -53,8 +53,9 @@ void warn_of_large_page(const std::string& html) {
   constexpr double kLarge = 50.0 * kMegabyte;
   const auto size = static_cast<double>(html.size());
   if (size > kLarge)
-    fmt::print(stderr, "warning: the page has {:.0f} MB, which a browser may be slow to show: {}\n", size / kMegabyte,
-               "it holds every step of the run");
+    fmt::print(stderr,
+               "warning: the page has {:.0f} MB, which a browser may be slow to show: it holds every step of the run\n",
+               size / kMegabyte);
 }
 
 bool open_in_browser(const std::string& address) {
