@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "commands.hpp"
+#include "output_names.hpp"
 #include "plot_file.hpp"
 #include "run_monitor.hpp"
 #include "terminal.hpp"
@@ -17,8 +18,8 @@ namespace trajet {
 
 namespace {
 
-/// Shows how far a comparison is; Ctrl-C ends it with the rows so far. Keeps the motions for the figure, if there is
-/// one.
+/// Shows how far a comparison is; Ctrl-C, SIGTERM and SIGHUP end it with the rows so far. Keeps the motions for the
+/// figure, if there is one.
 class CompareMonitor : public CompareObserver {
  public:
   explicit CompareMonitor(bool keeps_motions) : keeps_motions_(keeps_motions), monitor_(consumers()) {}
@@ -160,6 +161,7 @@ int exit_code(const Comparison& comparison) {
 int compare_command(const CompareArguments& arguments) {
   if (arguments.json == "-" && arguments.csv == "-")
     throw InputError({"--csv"}, "only one of --json and --csv can go to standard output");
+  check_outputs(arguments.scene, {{"--json", arguments.json}, {"--csv", arguments.csv}, {"--plot", arguments.plot}});
   std::optional<PlotFile> plot;
   if (!arguments.plot.empty()) plot.emplace(arguments.plot);
   Scene scene = read_scene(arguments.scene);

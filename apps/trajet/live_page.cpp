@@ -1,12 +1,11 @@
 #include <fmt/format.h>
-#include <signal.h>
 
 #include <filesystem>
 #include <fstream>
 #include <iterator>
-#include <utility>
 
 #include "loopback_server.hpp"
+#include "run_monitor.hpp"
 #include "trajet/io/output_file.hpp"
 #include "view_page.hpp"
 
@@ -33,19 +32,15 @@ class LivePage {
     ++version_;
     PageOptions options;
     options.is_live = true;
-    RunStatus status = RunStatus::failed;
     try {
-      ViewPage page = make_view_page(arguments_, options);
-      status = page.status;
-      html_ = std::move(page.html);
+      html_ = make_view_page(arguments_, options).html;
     } catch (const InputError& error) {
       html_ = error_page_html(error, text_of(error.where().file), options);
     } catch (const FileError& error) {
       html_ = error_page_html(InputError({}, error.what()), {}, options);
     }
     // A run takes Ctrl-C for itself; here it ends the program.
-    signal(SIGINT, SIG_DFL);
-    if (status == RunStatus::interrupted) raise(SIGINT);
+    let_signals_end_program();
   }
 
   const std::string& html() const { return html_; }

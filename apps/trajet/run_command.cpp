@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "commands.hpp"
+#include "output_names.hpp"
 #include "plot_file.hpp"
 #include "run_monitor.hpp"
 #include "summary.hpp"
@@ -20,6 +21,7 @@
 #include "trajet/sim/world.hpp"
 #include "trajet/viz/page.hpp"
 #include "trajet/viz/run_figure.hpp"
+#include "view_page.hpp"
 
 namespace trajet {
 
@@ -36,11 +38,31 @@ int exit_code(RunStatus status) {
   return kNumbersFailed;
 }
 
+namespace {
+
+/// Throws InputError where the animation of a run of that duration (s) would have too many keys.
+void check_animation(double duration, double fps) {
+  if (duration * fps <= kMostAnimationKeys) return;
+  // rounded down: what is proposed shall do
+  const double most = kMostAnimationKeys / duration;
+  const double unit = std::pow(10.0, std::floor(std::log10(most)) - 2.0);
+  throw InputError({"--fps"}, fmt::format("{:.6g} keys a second for {:.6g} s are more keys than the {:.6g} that an "
+                                          "animation may have: --fps {:.3g} or less, or an earlier --end expected",
+                                          fps, duration, kMostAnimationKeys, std::floor(most / unit) * unit));
+}
+
+}  // namespace
+
 int run_command(const RunArguments& arguments) {
   const auto to_stdout = {arguments.json == "-", arguments.csv == "-", arguments.html == "-", arguments.glb == "-"};
   const auto stdout_count = std::ranges::count(to_stdout, true);
   if (stdout_count > 1)
     throw InputError({"--csv"}, "only one of --json, --csv, --html and --glb can go to standard output");
+  check_outputs(arguments.scene, {{"--json", arguments.json},
+                                  {"--csv", arguments.csv},
+                                  {"--html", arguments.html},
+                                  {"--glb", arguments.glb},
+                                  {"--plot", arguments.plot}});
   if (!arguments.html.empty() && !page_unavailable().empty()) throw FileError(page_unavailable());
   std::optional<PlotFile> plot;
   if (!arguments.plot.empty()) plot.emplace(arguments.plot);
@@ -48,8 +70,7 @@ int run_command(const RunArguments& arguments) {
   apply(arguments.overrides, scene);
   // A wrong scene must not cost the user an earlier report: files are opened behind these lines.
   const World world = make_world(scene);
-  if (!arguments.glb.empty() && std::abs(world.end - world.start) * arguments.fps > kMostAnimationKeys)
-    throw InputError({"--fps"}, fmt::format("at most {:.0e} keys in all expected", kMostAnimationKeys));
+  if (!arguments.glb.empty()) check_animation(std::abs(world.end - world.start), arguments.fps);
 
   std::optional<OutputFile> json, csv, html, glb;
   std::optional<CsvWriter> csv_writer;
@@ -74,7 +95,9 @@ int run_command(const RunArguments& arguments) {
     json->finish();
   }
   if (html) {
-    html->write(page_html({{motion, report_json(result)}}));
+    const std::string page = page_html({{motion, report_json(result)}});
+    warn_of_large_page(page);
+    html->write(page);
     html->finish();
   }
   if (glb) {

@@ -16,8 +16,11 @@ namespace {
 constexpr std::chrono::milliseconds kFirstShow{500};
 constexpr std::chrono::milliseconds kShowInterval{100};
 
-std::atomic<bool> is_interrupted{false};
-static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler writes it");
+/// What asks for the end of the program: Ctrl-C, `kill`, a batch system or `timeout`, a terminal that is closed.
+constexpr int kEndingSignals[] = {SIGINT, SIGTERM, SIGHUP};
+
+std::atomic<int> ending_signal{0};
+static_assert(std::atomic<int>::is_always_lock_free, "a signal handler writes it");
 
 /// "45 s", "12 min", "3.4 h": as exact as a guess deserves.
 std::string format_duration(double seconds) {
@@ -26,16 +29,25 @@ std::string format_duration(double seconds) {
   return fmt::format("{:.1f} h", seconds / 3600.0);
 }
 
-void note_interrupt(int) { is_interrupted.store(true, std::memory_order_relaxed); }
+void note_interrupt(int signal) { ending_signal.store(signal, std::memory_order_relaxed); }
+
+void set_handler(void (*handler)(int), int flags) {
+  struct sigaction action = {};
+  action.sa_handler = handler;
+  action.sa_flags = flags;
+  for (const int signal : kEndingSignals) {
+    struct sigaction present = {};
+    sigaction(signal, nullptr, &present);
+    const bool is_nohup = signal == SIGHUP && present.sa_handler == SIG_IGN;
+    if (!is_nohup) sigaction(signal, &action, nullptr);
+  }
+}
 
 }  // namespace
 
 RunMonitor::RunMonitor(std::vector<RunObserver*> consumers)
     : consumers_(std::move(consumers)), shows_progress_(is_terminal(stderr)) {
-  struct sigaction action = {};
-  action.sa_handler = note_interrupt;
-  action.sa_flags = static_cast<int>(SA_RESETHAND);
-  sigaction(SIGINT, &action, nullptr);
+  set_handler(note_interrupt, static_cast<int>(SA_RESETHAND));
 }
 
 RunMonitor::~RunMonitor() { clear(); }
@@ -66,7 +78,7 @@ void RunMonitor::sample(const Sample& sample) {
 bool RunMonitor::interrupted(double time) {
   if (shows_progress_)
     if (const Clock::time_point now = Clock::now(); now >= next_show_) show(time, now);
-  return is_interrupted.load(std::memory_order_relaxed);
+  return ending_signal.load(std::memory_order_relaxed) != 0;
 }
 
 void RunMonitor::show(double time, Clock::time_point now) {
@@ -81,6 +93,11 @@ void RunMonitor::show(double time, Clock::time_point now) {
   fmt::print(stderr, "\r{:.{}}\033[K", line, room);
   has_shown_ = true;
   next_show_ = now + kShowInterval;
+}
+
+void let_signals_end_program() {
+  set_handler(SIG_DFL, 0);
+  if (const int signal = ending_signal.load(std::memory_order_relaxed); signal != 0) raise(signal);
 }
 
 }  // namespace trajet

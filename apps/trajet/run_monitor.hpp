@@ -9,14 +9,15 @@
 
 namespace trajet {
 
-/// Follows a run for the program: passes it on to its consumers, shows progress, and ends the run on Ctrl-C.
+/// Follows a run for the program: passes it on to its consumers, shows progress, and ends the run on Ctrl-C
+/// and on the signals SIGTERM and SIGHUP.
 ///
 /// Progress goes to standard error, only if it is a terminal, and only once a run has taken half a second: how far it
 /// is, how fast it goes, and how long it will still take at that speed.
 class RunMonitor : public RunObserver {
  public:
-  /// From now on Ctrl-C ends the run instead of the program; a second one ends the program. The consumers
-  /// outlive the monitor.
+  /// From now on Ctrl-C, SIGTERM and SIGHUP end the run instead of the program; a second one ends the program. A SIGHUP
+  /// that `nohup` has switched off stays so. The consumers outlive the monitor.
   explicit RunMonitor(std::vector<RunObserver*> consumers = {});
   ~RunMonitor() override;
   RunMonitor(const RunMonitor&) = delete;
@@ -47,5 +48,8 @@ class RunMonitor : public RunObserver {
   Clock::time_point began_;
   Clock::time_point next_show_;
 };
+
+/// Takes back what a RunMonitor has done: from now on the signals end the program, at once if one has ended a run.
+void let_signals_end_program();
 
 }  // namespace trajet

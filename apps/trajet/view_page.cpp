@@ -44,7 +44,18 @@ ViewPage make_view_page(const ViewArguments& arguments, const PageOptions& optio
     throw InputError({"--orientations"}, "no body of the scene turns");
   for (const std::string& way : arguments.orientations) add_variant({.orientation = way});
   page.html = page_html(runs, options);
+  warn_of_large_page(page.html);
   return page;
+}
+
+void warn_of_large_page(const std::string& html) {
+  constexpr double kMegabyte = 1e6;
+  constexpr double kLarge = 50.0 * kMegabyte;
+  const auto size = static_cast<double>(html.size());
+  if (size > kLarge)
+    fmt::print(stderr,
+               "warning: the page has {:.0f} MB, which a browser may be slow to show: it holds every step of the run\n",
+               size / kMegabyte);
 }
 
 bool open_in_browser(const std::string& address) {

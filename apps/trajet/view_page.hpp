@@ -16,6 +16,9 @@ struct ViewPage {
 /// Throws InputError where the scene is wrong, FileError where a file cannot be read.
 ViewPage make_view_page(const ViewArguments& arguments, const PageOptions& options);
 
+/// Tells the user of the size of a page with which a browser will have trouble.
+void warn_of_large_page(const std::string& html);
+
 /// Opens a page in the user's browser, if the system knows one; whether it could.
 bool open_in_browser(const std::string& address);
 

@@ -3,6 +3,7 @@
 #include <fmt/compile.h>
 #include <fmt/format.h>
 
+#include <cmath>
 #include <iterator>
 
 namespace trajet {
@@ -12,7 +13,12 @@ namespace {
 constexpr std::string_view kHeader = "t,body,x,y,z,vx,vy,vz,ax,ay,az,qw,qx,qy,qz,wx,wy,wz";
 constexpr std::string_view kNoBody = ",,,,,,,,,,,,,,,,,";
 
-void append(std::string& text, double value) { fmt::format_to(std::back_inserter(text), FMT_COMPILE("{}"), value); }
+void append(std::string& text, double value) {
+  if (std::isnan(value))
+    text += "nan";  // never "-nan": the sign of what is no number says nothing
+  else
+    fmt::format_to(std::back_inserter(text), FMT_COMPILE("{}"), value);
+}
 
 void append(std::string& text, const Vector3& v) {
   for (const double value : v) {

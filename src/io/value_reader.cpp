@@ -116,7 +116,7 @@ Expression TableReader::scalar_of(const toml::node& node, std::optional<Dimensio
 Expression TableReader::vector_of(const toml::node& node, std::optional<Dimension> expected) const {
   const std::string wanted = "a vector expected (an array of three or a vector expression)";
   if (const toml::value<std::string>* value = node.as_string()) {
-    if (split_quantity(value->get())) fail_type(node, wanted + ", got a scalar quantity, not");
+    if (split_quantity(value->get())) throw InputError(document_.location(node), wanted + ", got a scalar quantity");
     return expression_of(*value, expected);
   }
   const toml::array* array = node.as_array();

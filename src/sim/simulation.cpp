@@ -12,6 +12,9 @@ namespace {
 /// So many impacts of one body at one instant are a body that cannot get away, not a motion.
 constexpr int kMaxImpactsAtOnce = 1000;
 
+/// A step may hold any number of samples: so often in between the observer is asked whether to go on.
+constexpr long kSamplesBetweenQuestions = 4096;
+
 std::string failure_text(StepStatus status) {
   switch (status) {
     case StepStatus::step_too_small:
@@ -50,16 +53,16 @@ RunResult Simulation::run() {
     const int index = queue_.top().motion;
     queue_.pop();
     const Incident incident = motion(index).next();
+    sample_until(incident.time);
+    if (!running_) break;
     result_.end_time = incident.time;
     if (observer_.interrupted(incident.time)) {
-      result_.status = RunStatus::interrupted;
-      running_ = false;
+      interrupt(incident.time);
       break;
     }
     handle(index, incident);
   }
   for (const auto& each : motions_) each->hand_on(result_.end_time);
-  sample_until(result_.end_time);
   if (result_.status != RunStatus::stopped && last_sample_ != result_.end_time) write_sample(result_.end_time);
   std::stable_sort(result_.impacts.begin(), result_.impacts.end(),
                    [&](const Impact& a, const Impact& b) { return direction_ * (b.time - a.time) > 0.0; });
@@ -101,7 +104,6 @@ void Simulation::advance(int index) {
 void Simulation::handle(int index, const Incident& incident) {
   switch (incident.kind) {
     case Incident::Kind::segment_end:
-      sample_until(incident.time);
       if (!motion(index).finished()) advance(index);
       return;
     case Incident::Kind::event:
@@ -129,13 +131,11 @@ void Simulation::handle_event(int index, const Incident& incident) {
       enqueue(index);
       return;
     case EventAction::stop:
-      sample_until(incident.time);
       result_.status = RunStatus::stopped;
       running_ = false;
       write_sample(incident.time);
       return;
     case EventAction::set: {
-      sample_until(incident.time);
       Eigen::VectorXd q = moving.state(incident.time);
       Eigen::VectorXd values(static_cast<Eigen::Index>(event.targets.size()));
       Evaluator<double>(event.set)(incident.time, q.data(), values.data());
@@ -231,7 +231,6 @@ void Simulation::handle_contact(int index, const Incident& incident) {
     fail(incident.time, "body '" + body.name + "' has impact after impact with '" + obstacle.name + "' at one instant");
     return;
   }
-  sample_until(incident.time);
   const Impact impact = describe(index, incident, moving.state(incident.time));
   const bool is_hit = pair.contact.status == ContactStatus::hit && pair.contact.direction != ContactDirection::leaving;
   if (is_hit && obstacle.on_hit == OnHit::stop) {
@@ -259,6 +258,12 @@ void Simulation::fail(double time, const std::string& reason) {
   running_ = false;
 }
 
+void Simulation::interrupt(double time) {
+  result_.status = RunStatus::interrupted;
+  result_.end_time = time;
+  running_ = false;
+}
+
 void Simulation::sample_until(double time) {
   while (true) {
     double next = world_.start + direction_ * static_cast<double>(next_sample_) * world_.sample;
@@ -268,6 +273,7 @@ void Simulation::sample_until(double time) {
     if (direction_ * (time - next) < 0.0) return;
     ++next_sample_;
     write_sample(next);
+    if (next_sample_ % kSamplesBetweenQuestions == 0 && observer_.interrupted(next)) return interrupt(next);
   }
 }
 

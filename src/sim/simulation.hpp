@@ -67,11 +67,13 @@ class Simulation {
   /// The same for impacts that will not be handled because `impact` ends the run.
   void warn_of_hidden_ties(const Motion& motion, const Motion::Pair& handled, const Impact& impact);
   void fail(double time, const std::string& reason);
+  /// Ends the run at a time: the observer has asked for it.
+  void interrupt(double time);
   /// The impact as it stands before the response.
   Impact describe(int motion, const Incident& incident, const Eigen::VectorXd& q) const;
   double mass(const World::Body& body, double t, const Eigen::VectorXd& q) const;
 
-  /// Writes the regular samples behind the last one, up to `time`.
+  /// Writes the regular samples behind the last one, up to `time`; may end the run in between.
   void sample_until(double time);
   void write_sample(double time);
   Sample sample_at(double time) const;

@@ -50,9 +50,9 @@ struct ProgramResult {
   std::string err;
 };
 
-/// Runs the program `trajet`. If `interrupt_after_line` is given, sends SIGINT once that file has more than one line.
-inline ProgramResult run_trajet(const std::vector<std::string>& arguments,
-                                const std::string& interrupt_after_line = "") {
+/// Runs the program `trajet`. If `interrupt_after_line` is given, sends `signal` once that file has more than one line.
+inline ProgramResult run_trajet(const std::vector<std::string>& arguments, const std::string& interrupt_after_line = "",
+                                int signal = SIGINT) {
   const TemporaryFolder folder;
   const std::string out = folder.file("out"), err = folder.file("err");
   std::vector<std::string> words = arguments;
@@ -65,6 +65,7 @@ inline ProgramResult run_trajet(const std::vector<std::string>& arguments,
   if (child == 0) {
     dup2(open(out.c_str(), O_CREAT | O_WRONLY, 0600), STDOUT_FILENO);
     dup2(open(err.c_str(), O_CREAT | O_WRONLY, 0600), STDERR_FILENO);
+    ::signal(SIGHUP, SIG_DFL);  // whatever the tests themselves were started by
     execv(TRAJET_PROGRAM, argv.data());
     _exit(126);
   }
@@ -74,7 +75,7 @@ inline ProgramResult run_trajet(const std::vector<std::string>& arguments,
     bool ended = false;
     while (!started() && !(ended = waitpid(child, &status, WNOHANG) == child))
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    if (!ended) kill(child, SIGINT);
+    if (!ended) kill(child, signal);
     if (!ended) waitpid(child, &status, 0);
   } else {
     waitpid(child, &status, 0);

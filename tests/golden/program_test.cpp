@@ -147,13 +147,28 @@ TEST(Run, InterruptWritesWhatWasComputed) {
                                          "[time]\nend = 1e9\nsample = 1\n[method]\nname = \"rk4\"\nstep = 1e-3\n"
                                          "max_steps = 1000000000000\n"
                                          "[[state]]\nname = \"x\"\nvalue = 1\nrate = \"sin(t)\"\n");
-  const std::string csv = folder.file("r.csv");
-  const ProgramResult result = run_trajet({"run", scene, "--csv", csv, "--json", folder.file("r.json")}, csv);
-  EXPECT_EQ(result.exit_code, 130);
-  const Json report = Json::parse(read_text(folder.file("r.json")));
-  EXPECT_EQ(report["status"], "interrupted");
-  EXPECT_GT(report["end_time"], 1.0);
-  EXPECT_EQ(read_text(csv).back(), '\n');
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    SCOPED_TRACE(signal);
+    const std::string csv = folder.file(std::to_string(signal) + ".csv");
+    const std::string json = folder.file(std::to_string(signal) + ".json");
+    const ProgramResult result = run_trajet({"run", scene, "--csv", csv, "--json", json}, csv, signal);
+    ASSERT_EQ(result.exit_code, 130);
+    const Json report = Json::parse(read_text(json));
+    EXPECT_EQ(report["status"], "interrupted");
+    EXPECT_GT(report["end_time"], 1.0);
+    EXPECT_EQ(read_text(csv).back(), '\n');
+  }
+}
+
+TEST(Run, WhatIsNoNumberIsNanInTheCsv) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write(
+      "s.toml", "[time]\nend = 2\n[[body]]\nname = \"b\"\nacceleration = \"[sqrt(1 - t), -sqrt(1 - t), 0]\"\n");
+  const ProgramResult result = run_trajet({"run", scene, "--csv", "-"});
+  EXPECT_EQ(result.exit_code, 4);
+  const std::vector<std::string> last = cells(lines(result.out).back());
+  EXPECT_EQ(last[8], "nan") << result.out;
+  EXPECT_EQ(last[9], "nan");
 }
 
 TEST(ExitCodes, TellWhatWasWrong) {
@@ -207,6 +222,21 @@ TEST(ExitCodes, AWrongSceneLeavesEarlierFilesAlone) {
   const std::string earlier = folder.write("r.json", "{}");
   EXPECT_EQ(run_trajet({"run", wrong, "--json", earlier}).exit_code, 3);
   EXPECT_EQ(read_text(earlier), "{}");
+}
+
+TEST(ExitCodes, AnAnimationOfTooManyKeysIsRefusedBeforeAnythingIsWritten) {
+  const TemporaryFolder folder;
+  const std::string scene =
+      folder.write("s.toml", "[time]\nend = 30000\n[[body]]\nname = \"b\"\nvelocity = [1, 0, 0]\n");
+  const std::string earlier = folder.write("r.glb", "earlier");
+  const ProgramResult result = run_trajet({"run", scene, "--glb", earlier, "--csv", folder.file("r.csv")});
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_EQ(result.err,
+            "--fps: error: 60 keys a second for 30000 s are more keys than the 1e+06 that an animation may have: "
+            "--fps 33.3 or less, or an earlier --end expected\n");
+  EXPECT_EQ(read_text(earlier), "earlier");
+  EXPECT_FALSE(std::filesystem::exists(folder.file("r.csv")));
+  EXPECT_EQ(run_trajet({"run", scene, "--glb", earlier, "--fps", "33.3"}).exit_code, 0);
 }
 
 TEST(Check, FindsWhatOnlyTheMeaningOfAnExpressionTells) {

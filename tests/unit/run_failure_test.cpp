@@ -20,8 +20,10 @@ std::vector<Way> ways() {
 class Log : public RunObserver {
  public:
   void sample(const Sample& sample) override { samples.push_back(sample); }
+  void motion(const MotionPiece& piece) override { moved_until = piece.to; }
   bool interrupted(double time) override { return time > stop_at; }
   std::vector<Sample> samples;
+  double moved_until = 0.0;
   double stop_at = std::numeric_limits<double>::infinity();
 };
 
@@ -115,6 +117,23 @@ TEST(RunFailure, AnInterruptionKeepsWhatWasComputed) {
     EXPECT_EQ(log.samples.back().time, result.end_time);
     EXPECT_EQ(result.final.time, result.end_time);
     EXPECT_EQ(result.impacts.size(), 7u + (result.end_time > 0.45175 + 7 * 0.9035 ? 1u : 0u));
+  }
+}
+
+TEST(RunFailure, AnInterruptionIsSeenBetweenTheSamplesOfALongStep) {
+  for (const Way& way : ways()) {
+    Log log;
+    log.stop_at = 0.23;  // of a fall until 0.45, by taylor in one step
+    const RunResult result = run_text("[time]\nend = 1\nsample = 1e-6\n[method]\n" + way.lines + kBall, &log);
+    SCOPED_TRACE(way.name);
+    EXPECT_EQ(result.status, RunStatus::interrupted);
+    EXPECT_GT(result.end_time, 0.23);
+    EXPECT_LT(result.end_time, 0.235);
+    EXPECT_EQ(log.samples.back().time, result.end_time);
+    EXPECT_EQ(log.moved_until, result.end_time);
+    EXPECT_EQ(result.final.time, result.end_time);
+    EXPECT_NEAR(test::final_of(result, "ball").position.z(), 1.0 - 4.9 * result.end_time * result.end_time, 1e-12);
+    EXPECT_TRUE(result.impacts.empty());
   }
 }
 

@@ -48,7 +48,7 @@ export class App {
     body.append(side);
     root.append(this.header(), ...this.messages(), body, this.timeline.root, this.help);
     if (first.bodies.length > 0) this.stage = this.makeStage(view, stale);
-    if (first.bodies.length > 1) side.append(this.bodyChoice());
+    if (first.bodies.length > 1 && this.clock.duration > 0) side.append(this.bodyChoice());
     side.append(plots);
     if (first.impacts.length > 0) side.append(this.impactList.root);
     this.plots = new Plots(plots, this.runs, first.bodies[0]?.name ?? null, (t) => this.seek(t));

@@ -13,6 +13,21 @@ export interface Report {
   impacts: Impact[];
   events: { time: number; event: string; direction: string }[];
   warnings: string[];
+  /** How each body is at the end. */
+  final: FinalState[];
+  states: Record<string, number>;
+}
+
+export interface FinalState {
+  body: string;
+  position: Vector;
+  velocity: Vector;
+  /** null, as all numbers that are not finite. */
+  acceleration: (number | null)[];
+  /** (w, x, y, z) */
+  orientation: [number, number, number, number];
+  rotation_matrix: [Vector, Vector, Vector];
+  angular_velocity: Vector;
 }
 
 export interface Impact {

@@ -1,4 +1,5 @@
 import type { BodyData, Impact, RunData, Vector } from "./data";
+import { startTrack } from "./start";
 import { Track } from "./track";
 
 /** How a body stands at one time: unit quaternion (w, x, y, z), from the body's frame to the world. */
@@ -156,21 +157,19 @@ export class Run {
 
   constructor(readonly data: RunData) {
     this.name = data.report.method;
-    const tracks = data.groups.map((group) => Track.decode(group.pieces, group.dimension));
-    // A run that ended where it began has no pieces, and nothing to show.
-    this.bodies = data.bodies
-      .filter((body) => tracks[body.group].count > 0)
-      .map((body) => new BodyMotion(body, tracks[body.group]));
-    this.states = data.states
-      .filter((state) => tracks[state.group].count > 0)
-      .map((state) => {
-        const track = tracks[state.group];
-        return {
-          name: state.name,
-          track,
-          value: (t: number, piece = track.pieceAt(t)) => track.value(piece, state.component, t),
-        };
-      });
+    const tracks = data.groups.map(({ pieces, dimension }, group) => {
+      const track = Track.decode(pieces, dimension);
+      return track.count > 0 ? track : startTrack(data, group);
+    });
+    this.bodies = data.bodies.map((body) => new BodyMotion(body, tracks[body.group]));
+    this.states = data.states.map((state) => {
+      const track = tracks[state.group];
+      return {
+        name: state.name,
+        track,
+        value: (t: number, piece = track.pieceAt(t)) => track.value(piece, state.component, t),
+      };
+    });
     this.begin = Math.min(data.report.start_time, data.report.end_time);
     this.end = Math.max(data.report.start_time, data.report.end_time);
   }

@@ -1,6 +1,8 @@
 import uPlot from "uplot";
 import "uplot/dist/uPlot.min.css";
 import { readableRange, textRoom, ticksBetween, tickTexts } from "./axis";
+import { element } from "./dom";
+import * as format from "./format";
 import type { Run } from "./motion";
 import { isZero, type Quantity, quantitiesOf } from "./quantities";
 import { jumpsOf, samplingTimes } from "./sampling";
@@ -114,6 +116,10 @@ export class Plots {
     this.plots = [];
     const wholeFrom = Math.min(...this.runs.map((run) => run.begin));
     const wholeTo = Math.max(...this.runs.map((run) => run.end));
+    if (wholeFrom === wholeTo) {
+      this.note("still", `The run has no duration: it ends where it begins, at ${format.exactTime(wholeTo)}. There is nothing to plot.`);
+      return;
+    }
     const quantities = quantitiesOf(this.runs, this.body);
     const zero = quantities.filter(({ curves }) => isZero(curves));
     for (const quantity of quantities) {
@@ -134,11 +140,11 @@ export class Plots {
       this.plots.push({ quantity, plot });
       this.placeCursor(plot);
     }
-    if (zero.length === 0) return;
-    const note = document.createElement("p");
-    note.className = "zero";
-    note.textContent = `Zero throughout: ${zero.map(({ title }) => title).join(", ")}.`;
-    this.container.append(note);
+    if (zero.length > 0) this.note("zero", `Zero throughout: ${zero.map(({ title }) => title).join(", ")}.`);
+  }
+
+  private note(className: string, text: string): void {
+    this.container.append(element("p", { class: className }, text));
   }
 
   private options(quantity: Quantity, wholeFrom: number, wholeTo: number): uPlot.Options {

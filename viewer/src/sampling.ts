@@ -31,6 +31,10 @@ export function trailOf(body: BodyMotion, tolerance: number): Trail {
     trail.times.push(t);
     trail.points.push(point);
   };
+  if (track.end === track.begin) {
+    add(track.end, 0, true);
+    return trail;
+  }
   for (let piece = 0; piece < track.count; ++piece) {
     const begin = track.pieceBegin(piece);
     const duration = track.pieceEnd(piece) - begin;

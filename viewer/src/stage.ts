@@ -8,7 +8,7 @@ import { type Area, kBodyPixels, Labels, type LabelSpec } from "./labels";
 import type { Run } from "./motion";
 import { Scenery } from "./scenery";
 import { colorOf, cssColor } from "./theme";
-import { isSeenAlongX, kViewSize, sceneBox, ViewFrame } from "./view_frame";
+import { cameraPlace, isSeenAlongX, kViewSize, sceneBox, ViewFrame } from "./view_frame";
 
 /** Impacts beyond so many get no text in the picture; the list has them all. */
 const kMostImpactLabels = 60;
@@ -18,7 +18,7 @@ const kGhostOpacity = 0.45;
 const kBodySpacing = 2.4;
 const kPointReach = 0.002 * kViewSize;
 const kFieldOfViewDegrees = 35;
-/** How much farther away the whole scene is looked at than it has to be. */
+/** How much wider the picture is than the whole scene in it. */
 const kMargin = 1.12;
 
 /** The picture in space. */
@@ -27,6 +27,8 @@ export class Stage {
   showsImpacts = true;
   showsGhosts = true;
   private isSideBySide = false;
+  /** Whether the picture still is as `showAll` has made it. */
+  private showsAll = false;
   private readonly renderer: THREE.WebGLRenderer;
   private readonly scene = new THREE.Scene();
   private readonly camera = new THREE.PerspectiveCamera(kFieldOfViewDegrees, 1, 0.01, 1000);
@@ -69,6 +71,7 @@ export class Stage {
     this.camera.up.set(0, 0, 1);
     this.controls = new OrbitControls(this.camera, domElement);
     this.controls.addEventListener("change", changed);
+    this.controls.addEventListener("start", () => (this.showsAll = false));
     this.scene.add(new THREE.HemisphereLight("#ffffff", "#8a8a80", 2.2));
     const sun = new THREE.DirectionalLight("#ffffff", 1.6);
     sun.position.set(-4, -6, 9);
@@ -157,7 +160,8 @@ export class Stage {
     this.renderer.setSize(width, height);
     this.camera.aspect = width / height;
     this.camera.updateProjectionMatrix();
-    this.refreshLabels();
+    if (this.showsAll) this.showAll();
+    else this.refreshLabels();
   }
 
   /** What is shown, the whole scene or a body, in the picture. */
@@ -175,6 +179,7 @@ export class Stage {
   /** The whole scene in the picture, the way going from left to right. */
   showAll(): void {
     this.followed = null;
+    this.showsAll = true;
     this.arrange();
     const middle = this.spreadOfAll.multiplyScalar(0.5);
     const half = this.frame.box
@@ -183,32 +188,18 @@ export class Stage {
       .add(middle);
     const away = isSeenAlongX(this.frame.box) ? new THREE.Vector3(1, -0.35, 0.42) : new THREE.Vector3(-0.35, -1, 0.42);
     away.normalize();
-    const side = this.camera.up.clone().cross(away).normalize();
-    const up = away.clone().cross(side);
     const { horizontal, vertical } = this.halfAngles;
+    const inside = { horizontal: horizontal / kMargin, vertical: vertical / kMargin };
     const signs = [-1, 1];
     const corners = signs.flatMap((x) =>
       signs.flatMap((y) => signs.map((z) => new THREE.Vector3(x, y, z).multiply(half).add(middle))),
     );
-    // A point at (x, y, z) of the view is inside where |x| <= (d - z) tan of the half angle.
-    const distance = (points: THREE.Vector3[], target: THREE.Vector3): number =>
-      kMargin *
-      Math.max(
-        ...points.map((point) => {
-          const p = point.clone().sub(target);
-          return p.dot(away) + Math.max(Math.abs(p.dot(side)) / horizontal, Math.abs(p.dot(up)) / vertical);
-        }),
-      );
     // Arrows are as long as the picture lets them be, which the corners alone tell well enough.
-    const longest = arrowPixels(this.pictureSize) * this.pixelAt(kMargin * distance(corners, middle));
+    const longest = arrowPixels(this.pictureSize) * this.pixelAt(cameraPlace(corners, middle, away, inside).distance);
     const points = [...corners, ...this.actors.flat().flatMap((actor) => actor.arrowTips(longest))];
-    const target = middle.clone();
-    for (const axis of [side, up]) {
-      const places = points.map((point) => point.dot(axis));
-      target.addScaledVector(axis, 0.5 * (Math.min(...places) + Math.max(...places)) - middle.dot(axis));
-    }
+    const { target, distance } = cameraPlace(points, middle, away, inside);
     this.controls.target.copy(target);
-    this.camera.position.copy(target).addScaledVector(away, distance(points, target));
+    this.camera.position.copy(target).addScaledVector(away, distance);
     this.controls.update();
   }
 
@@ -227,6 +218,7 @@ export class Stage {
     const actor = this.actors[0]?.find((each) => each.motion.name === body);
     if (!actor) return;
     this.followed = actor;
+    this.showsAll = false;
     this.arrange();
     const { horizontal } = this.halfAngles;
     const reach = this.followedReach;

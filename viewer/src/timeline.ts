@@ -3,6 +3,20 @@ import type { Impact } from "./data";
 import { element, iconButton, kIcons, setIcon } from "./dom";
 import * as format from "./format";
 
+/** Marks on the bar; more of them would not be seen apart. */
+const kMostMarks = 600;
+
+/** Where on the bar, from 0 to 1, to mark times of a run: of those that would be seen as one, the first. */
+export function markPlaces(times: readonly number[], begin: number, duration: number): number[] {
+  const places = new Map<number, number>();
+  for (const time of times) {
+    const part = (time - begin) / (duration || 1);
+    const bucket = Math.floor(part * kMostMarks);
+    if (part >= 0 && part <= 1 && !places.has(bucket)) places.set(bucket, part);
+  }
+  return [...places.values()];
+}
+
 /** The bar at the bottom: play, step from impact to impact, scrub. */
 export class Timeline {
   readonly root: HTMLElement;
@@ -30,9 +44,8 @@ export class Timeline {
       this.seek(this.clock.begin + Number(this.slider.value) * this.clock.duration);
     });
     const ticks = element("div", { class: "ticks", "aria-hidden": "true" });
-    for (const impact of impacts.slice(0, 500)) {
-      const part = (impact.time - clock.begin) / (clock.duration || 1);
-      if (part < 0 || part > 1) continue;
+    const times = impacts.map((impact) => impact.time);
+    for (const part of markPlaces(times, clock.begin, clock.duration)) {
       const tick = element("i");
       tick.style.left = `calc(var(--thumb) / 2 + ${part} * (100% - var(--thumb)))`;
       ticks.append(tick);

@@ -57,6 +57,15 @@ export class Track {
     return new Track(decodeDoubles(pieces), dimension);
   }
 
+  /** One piece, from the coefficients of each component about its beginning. */
+  static ofPiece(from: number, to: number, components: readonly (readonly number[])[]): Track {
+    const degrees = new Array<number>(Math.ceil(components.length / kDegreesOfNumber)).fill(0);
+    components.forEach(({ length }, i) => {
+      degrees[Math.floor(i / kDegreesOfNumber)] += (length - 1) * kDegreeBase ** (i % kDegreesOfNumber);
+    });
+    return new Track(Float64Array.from([from, to, from, ...degrees, ...components.flat()]), components.length);
+  }
+
   get count(): number {
     return this.places.length;
   }

@@ -34,6 +34,34 @@ export function isSeenAlongX(box: THREE.Box3): boolean {
   return y > x;
 }
 
+/**
+ * The place from which a camera of these half angles (as tangents) sees all points, looking against `away`: what it looks
+ * at, as deep in the picture as `middle`, and how far away from that it is. What is nearer looks larger, so that the
+ * middle of the points is not the middle of what is seen of them: margins are as wide on the left as on the right, and
+ * above as below.
+ */
+export function cameraPlace(
+  points: readonly THREE.Vector3[],
+  middle: THREE.Vector3,
+  away: THREE.Vector3,
+  halfAngles: { horizontal: number; vertical: number },
+): { target: THREE.Vector3; distance: number } {
+  const side = new THREE.Vector3(0, 0, 1).cross(away).normalize();
+  const up = away.clone().cross(side);
+  const depth = middle.dot(away);
+  const target = away.clone().multiplyScalar(depth);
+  let distance = 0;
+  // Of a camera at (c, d) across and along `away`, a point at (x, z) is inside where |x - c| <= (d - z) tan.
+  for (const [axis, tangent] of [[side, halfAngles.horizontal], [up, halfAngles.vertical]] as const) {
+    const most = (sign: number): number =>
+      Math.max(...points.map((point) => sign * point.dot(axis) + point.dot(away) * tangent));
+    const [right, left] = [most(1), most(-1)];
+    target.addScaledVector(axis, (right - left) / 2);
+    distance = Math.max(distance, (right + left) / (2 * tangent) - depth);
+  }
+  return { target, distance };
+}
+
 function obstacleBox(shape: ObstacleShape): THREE.Box3 | null {
   switch (shape.kind) {
     case "plane":
@@ -57,7 +85,16 @@ const ball = (center: Vector, radius: number): THREE.Box3 =>
 /** Obstacles that are this much larger than the motion do not set the picture's size. */
 const kLargestObstacle = 3;
 
-/** What the picture shall hold, in metres: all ways, and the obstacles near them. */
+/** The point of a plane nearest to the middle of a box. */
+function footOn({ point, normal }: { point: Vector; normal: Vector }, box: THREE.Box3): THREE.Vector3 {
+  const plane = new THREE.Plane().setFromNormalAndCoplanarPoint(vector(normal).normalize(), vector(point));
+  return plane.projectPoint(box.getCenter(new THREE.Vector3()), new THREE.Vector3());
+}
+
+/**
+ * What the picture shall hold, in metres: all ways, and the obstacles near them; of runs of no duration, which have no
+ * ways, all obstacles.
+ */
 export function sceneBox(runs: readonly Run[]): THREE.Box3 {
   const box = new THREE.Box3();
   for (const run of runs)
@@ -69,11 +106,14 @@ export function sceneBox(runs: readonly Run[]): THREE.Box3 {
   if (box.isEmpty()) box.set(new THREE.Vector3(-1, -1, -1), new THREE.Vector3(1, 1, 1));
   const size = box.getSize(new THREE.Vector3());
   const largest = Math.max(size.x, size.y, size.z);
+  const bodies = box.clone();
+  const isStill = runs.every((run) => run.begin === run.end);
   for (const obstacle of runs[0]?.data.obstacles ?? []) {
     const own = obstacleBox(obstacle.shape);
+    if (isStill && obstacle.shape.kind === "plane") box.expandByPoint(footOn(obstacle.shape, bodies));
     if (!own) continue;
     const ownSize = own.getSize(new THREE.Vector3());
-    if (largest === 0 || Math.max(ownSize.x, ownSize.y, ownSize.z) <= kLargestObstacle * largest) box.union(own);
+    if (isStill || Math.max(ownSize.x, ownSize.y, ownSize.z) <= kLargestObstacle * largest) box.union(own);
   }
   // A body at rest needs a picture of some size too.
   if (box.getSize(new THREE.Vector3()).length() === 0) box.expandByScalar(1);

@@ -202,6 +202,59 @@ test("a page holds a hundred thousand steps", async () => {
   await context.close();
 });
 
+test("the whole scene stays in the picture when the window gets narrower", async () => {
+  const [scene, file] = [join(folder, "straight.toml"), join(folder, "straight.html")];
+  writeFileSync(scene, `[time]\nend = 10\n[[body]]\nname = "p"\nvelocity = [100, 0, 0]\n`);
+  execFileSync(program, ["view", scene, "--no-open", "--quiet", "--out", file]);
+  const pictures = [];
+  for (const width of [900, 1280]) {
+    const { page, context, problems } = await open(pathToFileURL(file).href, { viewport: { width, height: 600 } });
+    await page.setViewportSize({ width: 900, height: 600 });
+    await page.waitForFunction(() => innerWidth === 900);
+    await page.waitForTimeout(300);
+    pictures.push(await page.locator(".stage").screenshot({ path: join(folder, `straight_${width}.png`) }));
+    assert.deepEqual(problems, []);
+    await context.close();
+  }
+  assert.ok(pictures[0].equals(pictures[1]));
+});
+
+test("a run of no duration shows the bodies at their start, and says why there are no plots", async () => {
+  const moving = `[[body]]\nname = "p"\nposition = [0, 0, 1]\nvelocity = [1, 0, 0]\n`;
+  const scenes = {
+    instant: `[time]\nend = 0\n${moving}`,
+    failing: `[time]\nend = 1\n${moving}acceleration = "[1/(z - 1), 0, 0]"\n`,
+  };
+  for (const [name, text] of Object.entries(scenes)) {
+    const [scene, file] = [join(folder, `${name}.toml`), join(folder, `${name}.html`)];
+    writeFileSync(scene, text);
+    spawnSync(program, ["view", scene, "--no-open", "--quiet", "--out", file]);
+    const { page, context, problems } = await open(pathToFileURL(file).href);
+    assert.deepEqual(await page.evaluate(() => window.trajet.position("p")), [0, 0, 1]);
+    assert.ok(await page.locator(".stage canvas").isVisible());
+    assert.match(await page.locator(".plots").textContent(), /^The run has no duration/);
+    assert.deepEqual(problems, []);
+    await context.close();
+  }
+});
+
+test("a page so large that a browser has trouble is not made without a word", () => {
+  const scene = join(folder, "large.toml");
+  writeFileSync(
+    scene,
+    `[time]\nend = 400\nsample = 10\n[method]\nname = "euler"\nstep = "1 ms"\n` +
+      `[[body]]\nname = "p"\nposition = [1, 0, 0]\nvelocity = [0, 1, 0.05]\nacceleration = "[-x, -y, 0]"\n`,
+  );
+  const file = join(folder, "large.html");
+  for (const command of [["view", scene, "--no-open", "--out", file], ["run", scene, "--html", file]]) {
+    const { status, stderr } = spawnSync(program, [...command, "--quiet"], { encoding: "utf8" });
+    assert.equal(status, 0);
+    const megabytes = Math.round(statSync(file).size / 1e6);
+    assert.ok(megabytes > 50);
+    assert.match(stderr, new RegExp(`^warning: the page has ${megabytes} MB`));
+  }
+});
+
 test("--watch shows an error of the scene at its place, and the scene when it is mended", async () => {
   const scene = join(folder, "watched.toml");
   const right = readFileSync(join(examples, "free_kick.toml"), "utf8");

@@ -1,5 +1,5 @@
 import { describe, expect, it } from "vitest";
-import type { BodyData, RotationData, RunData } from "../src/data";
+import type { BodyData, FinalState, RotationData, RunData } from "../src/data";
 import { BodyMotion, namedRuns, product, quaternionOfMatrix, quaternionOfRotationVector, rotated } from "../src/motion";
 import { trailOf } from "../src/sampling";
 import { Track } from "../src/track";
@@ -141,9 +141,42 @@ describe("an orientation", () => {
   });
 });
 
+describe("a run of no duration", () => {
+  const state = { body: "ball", position: [1, 2, 3], velocity: [4, 5, 6], acceleration: [0, null, -9.8] };
+  const half = Math.SQRT1_2;
+  const data = (kind: RotationData["kind"], frame: RotationData["frame"], angular_velocity: number): RunData => ({
+    report: {
+      title: "", scene: "", method: "rk4", status: "failed", start_time: 2, end_time: 2, impacts: [], events: [], warnings: [],
+      // a quarter of a turn about z
+      final: [{ ...state, orientation: [half, 0, 0, half], rotation_matrix: [[0, -1, 0], [1, 0, 0], [0, 0, 1]], angular_velocity: [7, 0, 0] } as FinalState],
+      states: { m: 8 },
+    },
+    orientation: kind,
+    bodies: [body({ rotation: rotation({ kind, frame, angular_velocity }) })],
+    states: [{ name: "m", group: 0, component: angular_velocity + 3 }],
+    obstacles: [],
+    groups: [{ dimension: angular_velocity + 4, pieces: "" }],
+  }); // prettier-ignore
+
+  it("shows its bodies as they start", () => {
+    for (const [kind, place] of [["quaternion", 10], ["matrix", 15], ["rotation-vector", 13]] as const)
+      for (const frame of ["world", "body"] as const) {
+        const [run] = namedRuns([data(kind, frame, place)]);
+        const ball = run.body("ball")!;
+        expect(ball.position(2)).toEqual([1, 2, 3]);
+        expect(ball.velocity(2)).toEqual([4, 5, 6]);
+        expect(ball.acceleration(2)).toEqual([0, 0, -9.8]);
+        ball.orientation(2).forEach((each, i) => expect(each).toBeCloseTo([half, 0, 0, half][i], 12));
+        ball.angularVelocity(2).forEach((each, i) => expect(each).toBeCloseTo([7, 0, 0][i], 12));
+        expect(run.states[0].value(2)).toBe(8);
+        expect(trailOf(ball, 1e-3).points).toEqual([[1, 2, 3], [1, 2, 3]]); // prettier-ignore
+      }
+  });
+});
+
 describe("runs", () => {
   const run = (method: string, orientation: string | null): RunData => ({
-    report: { title: "", scene: "", method, status: "finished", start_time: 0, end_time: 1, impacts: [], events: [], warnings: [] },
+    report: { title: "", scene: "", method, status: "finished", start_time: 0, end_time: 1, impacts: [], events: [], final: [], states: {}, warnings: [] },
     orientation,
     bodies: [],
     states: [],

@@ -1,8 +1,11 @@
+import * as THREE from "three";
 import { describe, expect, it } from "vitest";
 import { readableRange, ticksBetween, tickTexts } from "../src/axis";
 import { Clock, comfortableSpeed, neighbour, speedsAround } from "../src/clock";
 import * as format from "../src/format";
 import { candidates, overlap } from "../src/labels";
+import { markPlaces } from "../src/timeline";
+import { cameraPlace } from "../src/view_frame";
 
 describe("the clock", () => {
   it("plays at the speed chosen, stops at the end, and starts again from there", () => {
@@ -31,6 +34,43 @@ describe("the clock", () => {
     expect(neighbour(times, 0.2, 1)).toBe(0.7);
     expect(neighbour(times, 0.5, -1)).toBe(0.2);
     expect(neighbour(times, 0.9, 1)).toBeNull();
+  });
+});
+
+describe("the marks of impacts", () => {
+  it("are where the impacts are", () => {
+    expect(markPlaces([1, 1.5, 3], 1, 2)).toEqual([0, 0.25, 1]);
+    expect(markPlaces([0], 0, 0)).toEqual([0]);
+  });
+
+  it("go on to the last of any number of impacts, and are not more than can be seen", () => {
+    const marks = markPlaces(Array.from({ length: 20000 }, (_, i) => 0.5 * i), 0, 10000);
+    expect(marks.length).toBeGreaterThan(100);
+    expect(marks.length).toBeLessThan(1000);
+    for (let i = 1; i < marks.length; ++i) expect(marks[i] - marks[i - 1]).toBeLessThan(0.01);
+    expect(marks.at(-1)).toBeGreaterThan(0.99);
+  });
+});
+
+describe("the picture of the whole scene", () => {
+  it("holds all points with equal margins, though what is near looks larger", () => {
+    const away = new THREE.Vector3(-0.35, -1, 0.42).normalize();
+    const line = [new THREE.Vector3(-5, 0, 0), new THREE.Vector3(5, 0, 0)];
+    const tall = [new THREE.Vector3(1, 2, -5), new THREE.Vector3(1, 0, 5)];
+    for (const [points, axis] of [[line, "x"], [tall, "y"]] as const) {
+      const vertical = Math.tan(THREE.MathUtils.degToRad(35 / 2));
+      const { target, distance } = cameraPlace(points, new THREE.Vector3(), away, { horizontal: vertical, vertical });
+      const camera = new THREE.PerspectiveCamera(35, 1, 0.01, 1000);
+      camera.up.set(0, 0, 1);
+      camera.position.copy(target).addScaledVector(away, distance);
+      camera.lookAt(target);
+      camera.updateMatrixWorld();
+      const places = points.map((point) => point.clone().project(camera));
+      const along = places.map((place) => place[axis]);
+      expect(Math.min(...along)).toBeCloseTo(-1, 9);
+      expect(Math.max(...along)).toBeCloseTo(1, 9);
+      for (const { x, y } of places) expect(Math.max(Math.abs(x), Math.abs(y))).toBeLessThan(1 + 1e-9);
+    }
   });
 });
 

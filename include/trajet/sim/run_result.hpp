@@ -130,7 +130,7 @@ class RunObserver {
   virtual void motion(const MotionPiece&) {}
   /// In order of time: the start, each multiple of the sample spacing, before and after each impact, the end.
   virtual void sample(const Sample&) {}
-  /// Asked between steps: true ends the run as `interrupted`. `time` is how far the run has come.
+  /// Asked between steps and samples: true ends the run as `interrupted`. `time` is how far the run has come.
   virtual bool interrupted(double time) { return time != time; }
 };
 
