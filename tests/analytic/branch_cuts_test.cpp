@@ -42,7 +42,8 @@ const Case kCases[] = {
     {"where(1/(t - 2) < 3, 1, 2)", 10.0 + 1.0 / 3.0},
 };
 
-// From a cut on one step of Runge and Kutta's method leads past: its error is a jump it does not see: below 3e-9, measured.
+// One step of Runge and Kutta's method leads past a cut, on the wrong side of which it starts: errors below 3e-9,
+// measured.
 TEST(BranchCuts, SeriesEndAtThem) {
   for (const char* method : {"taylor", "taylor-extended"})
     for (const Case& c : kCases) {
@@ -64,8 +65,7 @@ position = [1, 0, 0]
 velocity = [0, 1, 0]
 acceleration = "-r + [0, 0, 0.1*atan2(y, x)]"
 )");
-  // z = 0.1 sum over jumps: response to the angle t is t - sin t, to a jump of -2 pi at pi and 3 pi -2 pi (1 - cos(t -
-  // jump))
+  // the response to an angle t is t - sin t, to a jump of -2 pi at pi or 3 pi -2 pi (1 - cos(t - jump))
   const double t = 10.0;
   double z = t - std::sin(t);
   for (const double jump : {kPi, 3.0 * kPi}) z -= 2.0 * kPi * (1.0 - std::cos(t - jump));
