@@ -143,7 +143,10 @@ ContactResult Motion::first_contact_until(const Pair& pair, double to) const {
 void Motion::know_until(Pair& pair, double t) const {
   if (pair.known_at == t) return;
   const ContactResult contact = t == segment_.t1() ? pair.contact : first_contact_until(pair, t);
+  const bool is_met = contact.status == ContactStatus::hit || contact.status == ContactStatus::graze;
   if (contact.status == ContactStatus::separated && !pair.resting) pair.memory = contact.memory;
+  // a contact right at t, where another pair's was handled first, is still to come
+  if (is_met) pair.memory = {.side = contact.side_before, .is_in_plane = contact.memory.is_in_plane};
   pair.known_at = t;
 }
 

@@ -161,8 +161,8 @@ double Simulation::mass(const World::Body& body, double t, const Eigen::VectorXd
   return value;
 }
 
-Impact Simulation::describe(int index, const Incident& incident, const Eigen::VectorXd& q) const {
-  const Motion::Pair& pair = motions_[static_cast<std::size_t>(index)]->pair(incident.index);
+Impact Simulation::describe(const Motion& moving, const Incident& incident, const Eigen::VectorXd& q) const {
+  const Motion::Pair& pair = moving.pair(incident.index);
   const World::Body& body = body_of(pair);
   Impact impact;
   impact.time = incident.time;
@@ -190,22 +190,10 @@ void Simulation::record(const Impact& impact) {
   result_.impacts.push_back(impact);
 }
 
-void Simulation::warn_of_tie(const Impact& impact, const std::string& body, const std::string& with) {
-  const std::string text = "impacts of '" + impact.body + "' with '" + impact.with + "' and of '" + body + "' with '" +
-                           with + "' are closer in time than their error bounds: which is first is decided by rounding";
-  if (std::ranges::find(result_.warnings, text) == result_.warnings.end()) result_.warnings.push_back(text);
-}
-
-void Simulation::warn_of_hidden_ties(const Motion& moving, const Motion::Pair& handled, const Impact& impact) {
-  for (const Motion::Pair& other : moving.pairs()) {
-    if (&other == &handled || other.contact.status != ContactStatus::hit) continue;
-    if (std::abs(other.contact.time - impact.time) <= impact.time_error_bound + other.contact.time_error_bound)
-      warn_of_tie(impact, body_of(other).name, obstacle_of(other).name);
-  }
-}
-
 void Simulation::handle_contact(int index, const Incident& incident) {
   Motion& moving = motion(index);
+  if (const int first = bounce_at_once(moving, incident.index); first != incident.index)
+    return handle_contact(index, {incident.time, incident.kind, first});
   const Motion::Pair& pair = moving.pair(incident.index);
   const World::Body& body = body_of(pair);
   const World::Obstacle& obstacle = obstacle_of(pair);
@@ -232,7 +220,7 @@ void Simulation::handle_contact(int index, const Incident& incident) {
     return;
   }
   sample_until(incident.time);
-  const Impact impact = describe(index, incident, moving.state(incident.time));
+  const Impact impact = describe(moving, incident, moving.state(incident.time));
   const bool is_hit = pair.contact.status == ContactStatus::hit && pair.contact.direction != ContactDirection::leaving;
   if (is_hit && obstacle.on_hit == OnHit::stop) {
     write_sample(incident.time);

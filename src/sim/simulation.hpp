@@ -64,11 +64,21 @@ class Simulation {
   void record(const Impact& impact);
   /// Says that an impact of another pair may have been first as well.
   void warn_of_tie(const Impact& impact, const std::string& body, const std::string& with);
-  /// The same for impacts that will not be handled because `impact` ends the run.
+  /// The same for impacts that will not be handled, or handled otherwise, because `impact` was.
   void warn_of_hidden_ties(const Motion& motion, const Motion::Pair& handled, const Impact& impact);
+  /// The other pairs of the same body whose contact cannot be told in time from that of pair `handled`.
+  std::vector<int> met_at_once(const Motion& motion, int handled) const;
+  /// Of a pair's contact and those at the same instant the one to handle first: a bounce, so that what else was touched
+  /// counts once, on whichever side of it the body is then.
+  int bounce_at_once(const Motion& motion, int handled) const;
+  /// Of the contacts at the instant of a bounce those from which the body, then with dq/dt = `rate`, moves away
+  /// already: it was there, and does not bounce again. Adds what is known of their pairs; returns whether one stops the
+  /// run.
+  bool take_turned_away(const Motion& motion, int handled, const Impact& impact, const Eigen::VectorXd& before,
+                        const Eigen::VectorXd& rate, std::vector<Released>& known);
   void fail(double time, const std::string& reason);
   /// The impact as it stands before the response.
-  Impact describe(int motion, const Incident& incident, const Eigen::VectorXd& q) const;
+  Impact describe(const Motion& motion, const Incident& incident, const Eigen::VectorXd& q) const;
   double mass(const World::Body& body, double t, const Eigen::VectorXd& q) const;
 
   /// Writes the regular samples behind the last one, up to `time`.

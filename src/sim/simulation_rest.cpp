@@ -37,7 +37,8 @@ void Simulation::bounce(int index, const Incident& incident, Impact impact) {
   const double t = incident.time;
   write_sample(t);
 
-  Eigen::VectorXd q = moving.state(t);
+  const Eigen::VectorXd before = moving.state(t);
+  Eigen::VectorXd q = before;
   auto velocity = q.segment<3>(body.offset + 3);
   // the velocity of the centre is dr/dt, which a position_rate may set apart from v
   const Vector3 approach = moving.rate(t, q).segment<3>(body.offset);
@@ -45,6 +46,8 @@ void Simulation::bounce(int index, const Incident& incident, Impact impact) {
   impact.velocity_after = velocity;
   impact.impulse = mass(body, t, q) * (impact.velocity_after - impact.velocity_before);
   record(impact);
+  warn_of_hidden_ties(moving, moving.pair(incident.index), impact);
+  const Impact bounced = impact;
 
   std::vector<Released> released = release_by_speed(moving, body, t, q);
   const RestingTime rest = resting_time(moving, pair, impact, q);
@@ -70,11 +73,19 @@ void Simulation::bounce(int index, const Incident& incident, Impact impact) {
     record(impact);
     release_by_force(moving, body, t, q, released);
   }
+  const bool stops = take_turned_away(moving, incident.index, bounced, before, moving.rate(t, q), released);
   moving.restart(t, q);
-  moving.rebound(incident.index, trajet::rebounded(pair.contact.memory));
+  ContactMemory memory = trajet::rebounded(pair.contact.memory);
+  memory.contact_time = t;
+  moving.rebound(incident.index, memory);
   for (const Released& each : released) moving.rebound(each.pair, each.memory);
   write_sample(t);
-  advance(index);
+  if (stops) {
+    result_.status = RunStatus::stopped;
+    running_ = false;
+  } else {
+    advance(index);
+  }
 }
 
 Simulation::RestingTime Simulation::resting_time(const Motion& moving, const Motion::Pair& pair, const Impact& impact,
