@@ -204,9 +204,11 @@ void Motion::begin_rest(int index, const Vector3& normal) {
   use_law();
 }
 
-int Motion::end_rest(int resting) {
+int Motion::end_rest(int resting, double t) {
   const int index = resting_[static_cast<std::size_t>(resting)].pair;
-  pairs_[static_cast<std::size_t>(index)].resting = false;
+  Pair& pair = pairs_[static_cast<std::size_t>(index)];
+  pair.resting = false;
+  pair.known_at = t;  // until then it was in contact all the time
   resting_.erase(resting_.begin() + resting);
   use_law();
   return index;

@@ -57,8 +57,8 @@ class Motion {
   void restart(double t, const Eigen::VectorXd& q);
   /// The body of the pair stays on the obstacle, whose normal is given, from the next restart on.
   void begin_rest(int pair, const Vector3& normal);
-  /// From the next restart on, the resting contact of that index has ended. Returns its pair.
-  int end_rest(int resting);
+  /// From the next restart on, at time t, the resting contact of that index has ended. Returns its pair.
+  int end_rest(int resting, double t);
   /// After a restart: the body has bounced off.
   void rebound(int pair, const ContactMemory& memory) { pairs_[static_cast<std::size_t>(pair)].memory = memory; }
   /// After a restart that moved a body elsewhere.

@@ -56,16 +56,12 @@ RunResult Simulation::run() {
       running_ = false;
       break;
     }
+    record_rests_until(incident.time);
     handle(index, incident);
   }
   for (const auto& each : motions_) each->hand_on(result_.end_time);
   sample_until(result_.end_time);
   if (result_.status != RunStatus::stopped && last_sample_ != result_.end_time) write_sample(result_.end_time);
-  std::stable_sort(result_.impacts.begin(), result_.impacts.end(),
-                   [&](const Impact& a, const Impact& b) { return direction_ * (b.time - a.time) > 0.0; });
-  // the end of bouncing is foretold, and may lie beyond that of the run
-  std::erase_if(result_.impacts,
-                [&](const Impact& impact) { return direction_ * (impact.time - result_.end_time) > 0.0; });
   result_.final = sample_at(result_.end_time);
   for (const auto& each : motions_) {
     const StepStatistics statistics = each->statistics();

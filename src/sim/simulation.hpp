@@ -52,6 +52,9 @@ class Simulation {
   /// Ends the rests that an event's `set`, from state `before` to `q`, has broken.
   std::vector<Released> release_after_set(Motion& motion, double t, const Eigen::VectorXd& before, Eigen::VectorXd& q);
   Released release(Motion& motion, int resting, double t, const Eigen::VectorXd& q);
+  void end_rest(Motion& motion, int resting, double t);
+  /// Reports the rests whose time has come.
+  void record_rests_until(double time);
   /// Where a body slides off a face and another one goes on from there without a step, its rest on that one begins.
   std::optional<Released> rest_on_continuation(Motion& motion, const RestingContact& contact, double t,
                                                const Eigen::VectorXd& q);
@@ -120,6 +123,14 @@ class Simulation {
     int count = 0;
   };
   std::vector<Impacts> last_impacts_;  // of each body
+  /// A body that rests already; its last flights, which nobody can tell from contact, would be over at `time`.
+  struct ComingRest {
+    double time;
+    const Motion* motion;
+    int pair;
+    double time_error_bound;
+  };
+  std::vector<ComingRest> coming_rests_;
 };
 
 }  // namespace trajet

@@ -47,7 +47,6 @@ void Simulation::bounce(int index, const Incident& incident, Impact impact) {
   impact.impulse = mass(body, t, q) * (impact.velocity_after - impact.velocity_before);
   record(impact);
   warn_of_hidden_ties(moving, moving.pair(incident.index), impact);
-  const Impact bounced = impact;
 
   std::vector<Released> released = release_by_speed(moving, body, t, q);
   const RestingTime rest = resting_time(moving, pair, impact, q);
@@ -65,21 +64,17 @@ void Simulation::bounce(int index, const Incident& incident, Impact impact) {
     moving.begin_rest(incident.index, impact.normal);
     for (const Vector3& direction : moving.support(body.offset).blocked)
       velocity -= velocity.dot(direction) * direction;
-    impact.kind = ImpactKind::rest;
-    impact.time = t + rest.duration;
-    impact.velocity_before = impact.velocity_after;
-    impact.velocity_after = velocity;
-    impact.impulse = Vector3::Zero();
-    record(impact);
+    coming_rests_.push_back({t + rest.duration, &moving, incident.index, impact.time_error_bound});
     release_by_force(moving, body, t, q, released);
   }
-  const bool stops = take_turned_away(moving, incident.index, bounced, before, moving.rate(t, q), released);
+  const bool stops = take_turned_away(moving, incident.index, impact, before, moving.rate(t, q), released);
   moving.restart(t, q);
   ContactMemory memory = trajet::rebounded(pair.contact.memory);
   memory.contact_time = t;
   moving.rebound(incident.index, memory);
   for (const Released& each : released) moving.rebound(each.pair, each.memory);
   write_sample(t);
+  record_rests_until(t);
   if (stops) {
     result_.status = RunStatus::stopped;
     running_ = false;
@@ -150,7 +145,7 @@ std::vector<Simulation::Released> Simulation::release_after_set(Motion& moving, 
     for (auto contact = std::ranges::find_if(moving.resting(), is_of_body); contact != moving.resting().end();
          contact = std::ranges::find_if(moving.resting(), is_of_body)) {
       record_leave(moving, *contact, t, before);
-      moving.end_rest(static_cast<int>(contact - moving.resting().begin()));
+      end_rest(moving, static_cast<int>(contact - moving.resting().begin()), t);
     }
   }
   return released;
@@ -167,8 +162,26 @@ Simulation::Released Simulation::release(Motion& moving, int resting, double t, 
   const Vector3 surface =
       std::visit([&](const auto& shape) { return closest_point(shape, position); }, obstacle_of(pair).shape);
   memory.tolerance = std::max(memory.tolerance, 2.0 * (surface - point).norm());
-  moving.end_rest(resting);
+  end_rest(moving, resting, t);
   return {contact.pair, memory};
+}
+
+void Simulation::end_rest(Motion& moving, int resting, double t) {
+  const int pair = moving.end_rest(resting, t);
+  std::erase_if(coming_rests_, [&](const ComingRest& rest) { return rest.motion == &moving && rest.pair == pair; });
+}
+
+void Simulation::record_rests_until(double time) {
+  while (true) {
+    const auto next = std::ranges::min_element(coming_rests_, {}, &ComingRest::time);
+    if (next == coming_rests_.end() || next->time > time) return;
+    const ComingRest rest = *next;
+    coming_rests_.erase(next);
+    const auto contact = std::ranges::find(rest.motion->resting(), rest.pair, &RestingContact::pair);
+    Impact impact = steady_contact(*rest.motion, *contact, ImpactKind::rest, rest.time, rest.motion->state(rest.time));
+    impact.time_error_bound = rest.time_error_bound;
+    record(impact);
+  }
 }
 
 void Simulation::record_leave(const Motion& moving, const RestingContact& contact, double t, const Eigen::VectorXd& q) {
