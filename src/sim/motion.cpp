@@ -196,6 +196,23 @@ void Motion::pass_contact(int index) {
   find_next();
 }
 
+bool Motion::stay_in_contact(int index, double height) {
+  Pair& pair = pairs_[static_cast<std::size_t>(index)];
+  const double time = pair.contact.time;
+  ContactMemory memory = pair.contact.memory;
+  memory.side = pair.contact.side_before;
+  memory.contact_time = time;
+  // how far the Segment goes astray is found by trying
+  constexpr double kMore = 16.0;
+  if (pair.memory.contact_time == time) memory.tolerance = std::max(memory.tolerance, kMore * pair.memory.tolerance);
+  if (memory.tolerance > 0.5 * height) return false;
+  pair.memory = memory;
+  pair.known_at = time;
+  pair.contact = first_contact_until(pair, segment_.t1());
+  find_next();
+  return true;
+}
+
 void Motion::begin_rest(int index, const Vector3& normal) {
   Pair& pair = pairs_[static_cast<std::size_t>(index)];
   const World::Body& body = world_.bodies[static_cast<std::size_t>(pair.body)];

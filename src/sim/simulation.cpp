@@ -226,6 +226,7 @@ void Simulation::handle_contact(int index, const Incident& incident) {
     result_.status = RunStatus::stopped;
     running_ = false;
   } else if (is_hit && obstacle.on_hit == OnHit::bounce) {
+    if (goes_on_from_contact(index, incident, impact)) return enqueue(index);
     bounce(index, incident, impact);
   } else {
     write_sample(incident.time);

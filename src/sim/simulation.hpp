@@ -30,14 +30,17 @@ class Simulation {
   void handle_contact(int motion, const Incident& incident);
   void handle_leave(int motion, const Incident& incident);
   void bounce(int motion, const Incident& incident, Impact impact);
+  /// Whether a contact is the last one still, from which the body moves away by its law; then the motion goes on.
+  bool goes_on_from_contact(int motion, const Incident& incident, const Impact& impact);
 
   /// Whether a body that has bounced will not fly any more, and for how long it still would.
   struct RestingTime {
     bool rests = false;
     double duration = 0.0;  ///< s
   };
+  /// `is_hidden`: the flight to come does not show in the Segments.
   RestingTime resting_time(const Motion& motion, const Motion::Pair& pair, const Impact& impact,
-                           const Eigen::VectorXd& q) const;
+                           const Eigen::VectorXd& q, bool is_hidden) const;
   /// A contact that has ended, and what is known of its pair after the next restart.
   struct Released {
     int pair;

@@ -29,6 +29,19 @@ bool looks_down(const Shape& shape, const Vector3& normal) {
 
 }  // namespace
 
+bool Simulation::goes_on_from_contact(int index, const Incident& incident, const Impact& impact) {
+  Motion& moving = motion(index);
+  const int offset = body_of(moving.pair(incident.index)).offset;
+  const Eigen::VectorXd rate = moving.rate(incident.time, moving.state(incident.time));
+  const double speed = impact.normal.dot(rate.segment<3>(offset));
+  const double pull = -impact.normal.dot(rate.segment<3>(offset + 3));
+  if (speed <= 0.0) return false;
+  // of the flight: u^2 / (2 g), or where nothing pulls back, that on the Segment
+  const double on_segment = speed * std::abs(moving.segment().t1() - incident.time);
+  const double height = pull > 0.0 ? speed * speed / (2.0 * pull) : on_segment;
+  return moving.stay_in_contact(incident.index, height);
+}
+
 void Simulation::bounce(int index, const Incident& incident, Impact impact) {
   Motion& moving = motion(index);
   const Motion::Pair pair = moving.pair(incident.index);
@@ -45,11 +58,15 @@ void Simulation::bounce(int index, const Incident& incident, Impact impact) {
   velocity += trajet::rebound(approach, impact.normal, obstacle.restitution).impulse_per_mass;
   impact.velocity_after = velocity;
   impact.impulse = mass(body, t, q) * (impact.velocity_after - impact.velocity_before);
-  record(impact);
-  warn_of_hidden_ties(moving, moving.pair(incident.index), impact);
+  // else a flight so low that the Segment does not show it
+  const bool is_hit = approach.dot(impact.normal) <= 0.0;
+  if (is_hit) {
+    record(impact);
+    warn_of_hidden_ties(moving, moving.pair(incident.index), impact);
+  }
 
   std::vector<Released> released = release_by_speed(moving, body, t, q);
-  const RestingTime rest = resting_time(moving, pair, impact, q);
+  const RestingTime rest = resting_time(moving, pair, impact, q, !is_hit);
   if (rest.rests) {
     if (!is_flat_at(obstacle.shape, impact.normal)) {
       fail(t, "body '" + body.name + "' comes to rest on the curved or sharp part of obstacle '" + obstacle.name +
@@ -84,13 +101,13 @@ void Simulation::bounce(int index, const Incident& incident, Impact impact) {
 }
 
 Simulation::RestingTime Simulation::resting_time(const Motion& moving, const Motion::Pair& pair, const Impact& impact,
-                                                 const Eigen::VectorXd& q) const {
+                                                 const Eigen::VectorXd& q, bool is_hidden) const {
   const World::Body& body = body_of(pair);
   const double e = obstacle_of(pair).restitution;
   const Eigen::VectorXd rate = moving.rate(impact.time, q);
   const double speed = std::max(0.0, impact.normal.dot(rate.segment<3>(body.offset)));
   const double pull = -impact.normal.dot(rate.segment<3>(body.offset + 3));
-  if (pull <= 0.0 || e >= 1.0 || !is_below_flight(speed, pull, pair.contact.memory.tolerance)) return {};
+  if (pull <= 0.0 || e >= 1.0 || !(is_hidden || is_below_flight(speed, pull, pair.contact.memory.tolerance))) return {};
   // all flights to come: 2 u/g (1 + e + e^2 + ...)
   return {true, 2.0 * speed / (pull * (1.0 - e))};
 }

@@ -142,6 +142,40 @@ TEST(Bounce, EveryContactOfTheSeries) {
     EXPECT_NEAR(hits[i]->time, ball.contact(static_cast<int>(i)), 1e-14 * static_cast<double>(i + 1));
 }
 
+TEST(Bounce, AMethodThatBeginsWithLowOrderInventsNoHit) {
+  // After each bounce a multistep method begins at order 1: to its tolerance, its first Segments may dip into the
+  // ground.
+  const auto run = [](const Way& way) {
+    return test::run_text("[time]\nend = 12\n[method]\n" + way.lines + R"(
+[[body]]
+name = "ball"
+shape = "sphere"
+radius = 0.1
+position = [0, 0, 1]
+velocity = [1, 0, 0]
+acceleration = "[0, 0, -9.8] - 0.01*v"
+)" + kBouncingGround + "restitution = 0.8\n");
+  };
+  const RunResult reference = run(test::controlled("taylor", 1e-12));
+  // a method that sees smaller flights follows more of them
+  const std::size_t most = 3 * test::impacts_of(reference, ImpactKind::hit).size() / 2;
+  for (const std::string method : {"adams", "bdf"})
+    for (const double tolerance : {1e-4, 1e-6, 1e-9}) {
+      const Way way = test::controlled(method, tolerance);
+      const RunResult result = run(way);
+      ASSERT_EQ(result.status, RunStatus::finished) << way.name << result.failure;
+      const auto hits = test::impacts_of(result, ImpactKind::hit);
+      EXPECT_GT(hits.size(), 10u) << way.name;
+      EXPECT_LE(hits.size(), most) << way.name;
+      for (const Impact* hit : hits) EXPECT_LT(hit->velocity_before.dot(hit->normal), 0.0) << way.name;
+      // the errors of the steps of four flights
+      for (std::size_t i = 0; i < 4; ++i)
+        EXPECT_NEAR(hits[i]->time, reference.impacts[i].time, 100.0 * tolerance) << way.name;
+      EXPECT_EQ(test::impacts_of(result, ImpactKind::rest).size(), 1u) << way.name;
+      EXPECT_NEAR(test::final_of(result, "ball").position.z(), 0.1, 100.0 * tolerance) << way.name;
+    }
+}
+
 TEST(Bounce, NoRestitutionComesToRestAtOnce) {
   const RunResult result = Bouncing{9.81, 1.0, 0.0, 0.0}.run(test::long_controlled_and_short_steps()[0], 2.0);
   ASSERT_EQ(result.impacts.size(), 2u);
