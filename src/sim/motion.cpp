@@ -143,7 +143,10 @@ ContactResult Motion::first_contact_until(const Pair& pair, double to) const {
 void Motion::know_until(Pair& pair, double t) const {
   if (pair.known_at == t) return;
   const ContactResult contact = t == segment_.t1() ? pair.contact : first_contact_until(pair, t);
+  const bool is_met = contact.status == ContactStatus::hit || contact.status == ContactStatus::graze;
   if (contact.status == ContactStatus::separated && !pair.resting) pair.memory = contact.memory;
+  // a contact right at t, where another pair's was handled first, is still to come
+  if (is_met) pair.memory = {.side = contact.side_before, .is_in_plane = contact.memory.is_in_plane};
   pair.known_at = t;
 }
 
@@ -193,6 +196,23 @@ void Motion::pass_contact(int index) {
   find_next();
 }
 
+bool Motion::stay_in_contact(int index, double height) {
+  Pair& pair = pairs_[static_cast<std::size_t>(index)];
+  const double time = pair.contact.time;
+  ContactMemory memory = pair.contact.memory;
+  memory.side = pair.contact.side_before;
+  memory.contact_time = time;
+  // how far the Segment goes astray is found by trying
+  constexpr double kMore = 16.0;
+  if (pair.memory.contact_time == time) memory.tolerance = std::max(memory.tolerance, kMore * pair.memory.tolerance);
+  if (memory.tolerance > 0.5 * height) return false;
+  pair.memory = memory;
+  pair.known_at = time;
+  pair.contact = first_contact_until(pair, segment_.t1());
+  find_next();
+  return true;
+}
+
 void Motion::begin_rest(int index, const Vector3& normal) {
   Pair& pair = pairs_[static_cast<std::size_t>(index)];
   const World::Body& body = world_.bodies[static_cast<std::size_t>(pair.body)];
@@ -201,9 +221,11 @@ void Motion::begin_rest(int index, const Vector3& normal) {
   use_law();
 }
 
-int Motion::end_rest(int resting) {
+int Motion::end_rest(int resting, double t) {
   const int index = resting_[static_cast<std::size_t>(resting)].pair;
-  pairs_[static_cast<std::size_t>(index)].resting = false;
+  Pair& pair = pairs_[static_cast<std::size_t>(index)];
+  pair.resting = false;
+  pair.known_at = t;  // until then it was in contact all the time
   resting_.erase(resting_.begin() + resting);
   use_law();
   return index;

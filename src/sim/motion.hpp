@@ -53,12 +53,15 @@ class Motion {
   void pass_event(int event);
   /// The body goes through the obstacle, or past it.
   void pass_contact(int pair);
+  /// The body moves away from its last contact with the obstacle: what the Segment shows is that contact still, to its
+  /// error. Goes on behind it; false if that would hide a flight of that height (m).
+  bool stay_in_contact(int pair, double height);
   /// Goes on from state `q` at time `t`, on which the current Segment ends.
   void restart(double t, const Eigen::VectorXd& q);
   /// The body of the pair stays on the obstacle, whose normal is given, from the next restart on.
   void begin_rest(int pair, const Vector3& normal);
-  /// From the next restart on, the resting contact of that index has ended. Returns its pair.
-  int end_rest(int resting);
+  /// From the next restart on, at time t, the resting contact of that index has ended. Returns its pair.
+  int end_rest(int resting, double t);
   /// After a restart: the body has bounced off.
   void rebound(int pair, const ContactMemory& memory) { pairs_[static_cast<std::size_t>(pair)].memory = memory; }
   /// After a restart that moved a body elsewhere.

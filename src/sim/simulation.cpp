@@ -60,15 +60,11 @@ RunResult Simulation::run() {
       interrupt(incident.time);
       break;
     }
+    record_rests_until(incident.time);
     handle(index, incident);
   }
   for (const auto& each : motions_) each->hand_on(result_.end_time);
   if (result_.status != RunStatus::stopped && last_sample_ != result_.end_time) write_sample(result_.end_time);
-  std::stable_sort(result_.impacts.begin(), result_.impacts.end(),
-                   [&](const Impact& a, const Impact& b) { return direction_ * (b.time - a.time) > 0.0; });
-  // the end of bouncing is foretold, and may lie beyond that of the run
-  std::erase_if(result_.impacts,
-                [&](const Impact& impact) { return direction_ * (impact.time - result_.end_time) > 0.0; });
   result_.final = sample_at(result_.end_time);
   for (const auto& each : motions_) {
     const StepStatistics statistics = each->statistics();
@@ -161,8 +157,8 @@ double Simulation::mass(const World::Body& body, double t, const Eigen::VectorXd
   return value;
 }
 
-Impact Simulation::describe(int index, const Incident& incident, const Eigen::VectorXd& q) const {
-  const Motion::Pair& pair = motions_[static_cast<std::size_t>(index)]->pair(incident.index);
+Impact Simulation::describe(const Motion& moving, const Incident& incident, const Eigen::VectorXd& q) const {
+  const Motion::Pair& pair = moving.pair(incident.index);
   const World::Body& body = body_of(pair);
   Impact impact;
   impact.time = incident.time;
@@ -190,22 +186,10 @@ void Simulation::record(const Impact& impact) {
   result_.impacts.push_back(impact);
 }
 
-void Simulation::warn_of_tie(const Impact& impact, const std::string& body, const std::string& with) {
-  const std::string text = "impacts of '" + impact.body + "' with '" + impact.with + "' and of '" + body + "' with '" +
-                           with + "' are closer in time than their error bounds: which is first is decided by rounding";
-  if (std::ranges::find(result_.warnings, text) == result_.warnings.end()) result_.warnings.push_back(text);
-}
-
-void Simulation::warn_of_hidden_ties(const Motion& moving, const Motion::Pair& handled, const Impact& impact) {
-  for (const Motion::Pair& other : moving.pairs()) {
-    if (&other == &handled || other.contact.status != ContactStatus::hit) continue;
-    if (std::abs(other.contact.time - impact.time) <= impact.time_error_bound + other.contact.time_error_bound)
-      warn_of_tie(impact, body_of(other).name, obstacle_of(other).name);
-  }
-}
-
 void Simulation::handle_contact(int index, const Incident& incident) {
   Motion& moving = motion(index);
+  if (const int first = bounce_at_once(moving, incident.index); first != incident.index)
+    return handle_contact(index, {incident.time, incident.kind, first});
   const Motion::Pair& pair = moving.pair(incident.index);
   const World::Body& body = body_of(pair);
   const World::Obstacle& obstacle = obstacle_of(pair);
@@ -231,7 +215,7 @@ void Simulation::handle_contact(int index, const Incident& incident) {
     fail(incident.time, "body '" + body.name + "' has impact after impact with '" + obstacle.name + "' at one instant");
     return;
   }
-  const Impact impact = describe(index, incident, moving.state(incident.time));
+  const Impact impact = describe(moving, incident, moving.state(incident.time));
   const bool is_hit = pair.contact.status == ContactStatus::hit && pair.contact.direction != ContactDirection::leaving;
   if (is_hit && obstacle.on_hit == OnHit::stop) {
     write_sample(incident.time);
@@ -241,6 +225,7 @@ void Simulation::handle_contact(int index, const Incident& incident) {
     result_.status = RunStatus::stopped;
     running_ = false;
   } else if (is_hit && obstacle.on_hit == OnHit::bounce) {
+    if (goes_on_from_contact(index, incident, impact)) return enqueue(index);
     bounce(index, incident, impact);
   } else {
     write_sample(incident.time);

@@ -29,6 +29,19 @@ bool looks_down(const Shape& shape, const Vector3& normal) {
 
 }  // namespace
 
+bool Simulation::goes_on_from_contact(int index, const Incident& incident, const Impact& impact) {
+  Motion& moving = motion(index);
+  const int offset = body_of(moving.pair(incident.index)).offset;
+  const Eigen::VectorXd rate = moving.rate(incident.time, moving.state(incident.time));
+  const double speed = impact.normal.dot(rate.segment<3>(offset));
+  const double pull = -impact.normal.dot(rate.segment<3>(offset + 3));
+  if (speed <= 0.0) return false;
+  // of the flight: u^2 / (2 g), or where nothing pulls back, that on the Segment
+  const double on_segment = speed * std::abs(moving.segment().t1() - incident.time);
+  const double height = pull > 0.0 ? speed * speed / (2.0 * pull) : on_segment;
+  return moving.stay_in_contact(incident.index, height);
+}
+
 void Simulation::bounce(int index, const Incident& incident, Impact impact) {
   Motion& moving = motion(index);
   const Motion::Pair pair = moving.pair(incident.index);
@@ -37,17 +50,23 @@ void Simulation::bounce(int index, const Incident& incident, Impact impact) {
   const double t = incident.time;
   write_sample(t);
 
-  Eigen::VectorXd q = moving.state(t);
+  const Eigen::VectorXd before = moving.state(t);
+  Eigen::VectorXd q = before;
   auto velocity = q.segment<3>(body.offset + 3);
   // the velocity of the centre is dr/dt, which a position_rate may set apart from v
   const Vector3 approach = moving.rate(t, q).segment<3>(body.offset);
   velocity += trajet::rebound(approach, impact.normal, obstacle.restitution).impulse_per_mass;
   impact.velocity_after = velocity;
   impact.impulse = mass(body, t, q) * (impact.velocity_after - impact.velocity_before);
-  record(impact);
+  // else a flight so low that the Segment does not show it
+  const bool is_hit = approach.dot(impact.normal) <= 0.0;
+  if (is_hit) {
+    record(impact);
+    warn_of_hidden_ties(moving, moving.pair(incident.index), impact);
+  }
 
   std::vector<Released> released = release_by_speed(moving, body, t, q);
-  const RestingTime rest = resting_time(moving, pair, impact, q);
+  const RestingTime rest = resting_time(moving, pair, impact, q, !is_hit);
   if (rest.rests) {
     if (!is_flat_at(obstacle.shape, impact.normal)) {
       fail(t, "body '" + body.name + "' comes to rest on the curved or sharp part of obstacle '" + obstacle.name +
@@ -62,29 +81,33 @@ void Simulation::bounce(int index, const Incident& incident, Impact impact) {
     moving.begin_rest(incident.index, impact.normal);
     for (const Vector3& direction : moving.support(body.offset).blocked)
       velocity -= velocity.dot(direction) * direction;
-    impact.kind = ImpactKind::rest;
-    impact.time = t + rest.duration;
-    impact.velocity_before = impact.velocity_after;
-    impact.velocity_after = velocity;
-    impact.impulse = Vector3::Zero();
-    record(impact);
+    coming_rests_.push_back({t + rest.duration, &moving, incident.index, impact.time_error_bound});
     release_by_force(moving, body, t, q, released);
   }
+  const bool stops = take_turned_away(moving, incident.index, impact, before, moving.rate(t, q), released);
   moving.restart(t, q);
-  moving.rebound(incident.index, trajet::rebounded(pair.contact.memory));
+  ContactMemory memory = trajet::rebounded(pair.contact.memory);
+  memory.contact_time = t;
+  moving.rebound(incident.index, memory);
   for (const Released& each : released) moving.rebound(each.pair, each.memory);
   write_sample(t);
-  advance(index);
+  record_rests_until(t);
+  if (stops) {
+    result_.status = RunStatus::stopped;
+    running_ = false;
+  } else {
+    advance(index);
+  }
 }
 
 Simulation::RestingTime Simulation::resting_time(const Motion& moving, const Motion::Pair& pair, const Impact& impact,
-                                                 const Eigen::VectorXd& q) const {
+                                                 const Eigen::VectorXd& q, bool is_hidden) const {
   const World::Body& body = body_of(pair);
   const double e = obstacle_of(pair).restitution;
   const Eigen::VectorXd rate = moving.rate(impact.time, q);
   const double speed = std::max(0.0, impact.normal.dot(rate.segment<3>(body.offset)));
   const double pull = -impact.normal.dot(rate.segment<3>(body.offset + 3));
-  if (pull <= 0.0 || e >= 1.0 || !is_below_flight(speed, pull, pair.contact.memory.tolerance)) return {};
+  if (pull <= 0.0 || e >= 1.0 || !(is_hidden || is_below_flight(speed, pull, pair.contact.memory.tolerance))) return {};
   // all flights to come: 2 u/g (1 + e + e^2 + ...)
   return {true, 2.0 * speed / (pull * (1.0 - e))};
 }
@@ -139,7 +162,7 @@ std::vector<Simulation::Released> Simulation::release_after_set(Motion& moving, 
     for (auto contact = std::ranges::find_if(moving.resting(), is_of_body); contact != moving.resting().end();
          contact = std::ranges::find_if(moving.resting(), is_of_body)) {
       record_leave(moving, *contact, t, before);
-      moving.end_rest(static_cast<int>(contact - moving.resting().begin()));
+      end_rest(moving, static_cast<int>(contact - moving.resting().begin()), t);
     }
   }
   return released;
@@ -156,8 +179,26 @@ Simulation::Released Simulation::release(Motion& moving, int resting, double t, 
   const Vector3 surface =
       std::visit([&](const auto& shape) { return closest_point(shape, position); }, obstacle_of(pair).shape);
   memory.tolerance = std::max(memory.tolerance, 2.0 * (surface - point).norm());
-  moving.end_rest(resting);
+  end_rest(moving, resting, t);
   return {contact.pair, memory};
+}
+
+void Simulation::end_rest(Motion& moving, int resting, double t) {
+  const int pair = moving.end_rest(resting, t);
+  std::erase_if(coming_rests_, [&](const ComingRest& rest) { return rest.motion == &moving && rest.pair == pair; });
+}
+
+void Simulation::record_rests_until(double time) {
+  while (true) {
+    const auto next = std::ranges::min_element(coming_rests_, {}, &ComingRest::time);
+    if (next == coming_rests_.end() || next->time > time) return;
+    const ComingRest rest = *next;
+    coming_rests_.erase(next);
+    const auto contact = std::ranges::find(rest.motion->resting(), rest.pair, &RestingContact::pair);
+    Impact impact = steady_contact(*rest.motion, *contact, ImpactKind::rest, rest.time, rest.motion->state(rest.time));
+    impact.time_error_bound = rest.time_error_bound;
+    record(impact);
+  }
 }
 
 void Simulation::record_leave(const Motion& moving, const RestingContact& contact, double t, const Eigen::VectorXd& q) {
@@ -210,7 +251,6 @@ std::optional<Simulation::Released> Simulation::rest_on_continuation(Motion& mov
 
 void Simulation::handle_leave(int index, const Incident& incident) {
   Motion& moving = motion(index);
-  sample_until(incident.time);
   const RestingContact contact = moving.resting()[static_cast<std::size_t>(incident.index)];
   const World::Body& body = body_of(moving.pair(contact.pair));
   const Eigen::VectorXd q = moving.state(incident.time);

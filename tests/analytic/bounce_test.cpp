@@ -50,6 +50,51 @@ TEST(Bounce, ARestBehindTheEndIsNotReported) {
   }
 }
 
+TEST(Bounce, ARestIsReportedWhereTheBodyIsThen) {
+  // It slides at 1 m/s all the time.
+  const Bouncing ball{9.81, 1.0, 0.0, 0.5};
+  for (const Way& way : test::long_controlled_and_short_steps()) {
+    const RunResult result = ball.run(way, 3.0, 0.25);
+    const auto rests = test::impacts_of(result, ImpactKind::rest);
+    ASSERT_EQ(rests.size(), 1u) << way.name;
+    EXPECT_GT(rests[0]->time, test::impacts_of(result, ImpactKind::hit).back()->time) << way.name;
+    EXPECT_NEAR(rests[0]->position.x(), rests[0]->time, 1e-13) << way.name;
+    EXPECT_NEAR(rests[0]->point.x(), rests[0]->time, 1e-13) << way.name;
+    EXPECT_EQ(rests[0]->velocity_before, Vector3(1, 0, 0)) << way.name;
+    EXPECT_EQ(rests[0]->velocity_after, Vector3(1, 0, 0)) << way.name;
+  }
+}
+
+TEST(Bounce, ARestThatEndsBeforeItsTimeIsNotReported) {
+  // An edge between the last bounce and the time at which bouncing would be over.
+  const Bouncing ball{9.81, 1.0, 0.0, 0.5};
+  for (const Way& way : test::long_controlled_and_short_steps()) {
+    const RunResult whole = ball.run(way, 3.0);
+    const double last = test::impacts_of(whole, ImpactKind::hit).back()->time;
+    const double edge = 0.1 * last + 0.9 * test::impacts_of(whole, ImpactKind::rest).back()->time;
+    const RunResult result = test::run_text("[time]\nend = 3\n[method]\n" + way.lines + R"(
+[[body]]
+name = "ball"
+position = [0, 0, 1]
+velocity = [1, 0, 0]
+acceleration = [0, 0, -9.81]
+[[obstacle]]
+name = "table"
+shape = "rectangle"
+normal = [0, 0, 1]
+up = [0, 1, 0]
+size = [10, 2]
+on_hit = "bounce"
+restitution = 0.5
+center = [)" + test::number(edge - 5.0) + ", 0, 0]\n");
+    ASSERT_EQ(result.status, RunStatus::finished) << way.name << result.failure;
+    EXPECT_TRUE(test::impacts_of(result, ImpactKind::rest).empty()) << way.name;
+    ASSERT_EQ(result.impacts.back().kind, ImpactKind::leave) << way.name;
+    EXPECT_NEAR(result.impacts.back().time, edge, 1e-12) << way.name;
+    EXPECT_LT(test::final_of(result, "ball").position.z(), -1.0) << way.name;
+  }
+}
+
 TEST(Bounce, PublishedContactsAndEnds) {
   struct Published {
     Bouncing ball;
@@ -95,6 +140,40 @@ TEST(Bounce, EveryContactOfTheSeries) {
   EXPECT_GT(hits.size(), 25u);  // 0.49^25 m is 2e-8 m
   for (std::size_t i = 0; i < hits.size(); ++i)
     EXPECT_NEAR(hits[i]->time, ball.contact(static_cast<int>(i)), 1e-14 * static_cast<double>(i + 1));
+}
+
+TEST(Bounce, AMethodThatBeginsWithLowOrderInventsNoHit) {
+  // After each bounce a multistep method begins at order 1: to its tolerance, its first Segments may dip into the
+  // ground.
+  const auto run = [](const Way& way) {
+    return test::run_text("[time]\nend = 12\n[method]\n" + way.lines + R"(
+[[body]]
+name = "ball"
+shape = "sphere"
+radius = 0.1
+position = [0, 0, 1]
+velocity = [1, 0, 0]
+acceleration = "[0, 0, -9.8] - 0.01*v"
+)" + kBouncingGround + "restitution = 0.8\n");
+  };
+  const RunResult reference = run(test::controlled("taylor", 1e-12));
+  // a method that sees smaller flights follows more of them
+  const std::size_t most = 3 * test::impacts_of(reference, ImpactKind::hit).size() / 2;
+  for (const std::string method : {"adams", "bdf"})
+    for (const double tolerance : {1e-4, 1e-6, 1e-9}) {
+      const Way way = test::controlled(method, tolerance);
+      const RunResult result = run(way);
+      ASSERT_EQ(result.status, RunStatus::finished) << way.name << result.failure;
+      const auto hits = test::impacts_of(result, ImpactKind::hit);
+      EXPECT_GT(hits.size(), 10u) << way.name;
+      EXPECT_LE(hits.size(), most) << way.name;
+      for (const Impact* hit : hits) EXPECT_LT(hit->velocity_before.dot(hit->normal), 0.0) << way.name;
+      // the errors of the steps of four flights
+      for (std::size_t i = 0; i < 4; ++i)
+        EXPECT_NEAR(hits[i]->time, reference.impacts[i].time, 100.0 * tolerance) << way.name;
+      EXPECT_EQ(test::impacts_of(result, ImpactKind::rest).size(), 1u) << way.name;
+      EXPECT_NEAR(test::final_of(result, "ball").position.z(), 0.1, 100.0 * tolerance) << way.name;
+    }
 }
 
 TEST(Bounce, NoRestitutionComesToRestAtOnce) {

@@ -138,6 +138,47 @@ TEST(Rest, ABallTooSlowForTheEdgeIsNotFollowed) {
     }
 }
 
+TEST(Rest, ABallFastEnoughFliesFreeOffTheEdge) {
+  // Down a plate of tilt tan(alpha) = 1/n. Past the edge the gap opens as (v^2/r - g cos(alpha)) t^2 / 2, from nothing.
+  for (const Way& way : test::long_controlled_and_short_steps())
+    for (const double n : {2.0, 3.0, 7.0})
+      for (const double radius : {0.05, 0.2}) {
+        SCOPED_TRACE(way.name + " " + test::number(n) + " " + test::number(radius));
+        const double norm = std::hypot(1.0, n);
+        const Vector3 normal(1.0 / norm, 0.0, n / norm), down(n / norm, 0.0, -1.0 / norm);
+        const RunResult result = test::run_text("[time]\nend = 3\n[method]\n" + way.lines + R"(
+[[body]]
+name = "ball"
+shape = "sphere"
+velocity = [0, -1, 0]
+acceleration = [0, 0, -9.8]
+radius = )" + test::number(radius) + "\nposition = [" +
+                                                test::number((radius + 0.1) * normal.x()) + ", 0, " +
+                                                test::number((radius + 0.1) * normal.z()) + R"(]
+[[obstacle]]
+name = "plate"
+shape = "rectangle"
+center = [0, 0, 0]
+up = [0, 1, 0]
+size = [4, 40]
+on_hit = "bounce"
+restitution = 0
+normal = [1, 0, )" + test::number(n) + "]\n");
+        ASSERT_EQ(result.status, RunStatus::finished) << result.failure;
+        ASSERT_EQ(result.impacts.size(), 3u);
+        EXPECT_EQ(result.impacts[0].kind, ImpactKind::hit);
+        EXPECT_EQ(result.impacts[1].kind, ImpactKind::rest);
+        EXPECT_EQ(result.impacts[2].kind, ImpactKind::leave);
+        // along the plate it falls freely: 2 m = g sin(alpha) t^2 / 2
+        const double leave = std::sqrt(4.0 / (9.8 / norm));
+        EXPECT_NEAR(result.impacts[2].time, leave, 1e-12);
+        const double flight = 3.0 - leave;
+        const Vector3 end = 2.0 * down + radius * normal + 9.8 / norm * leave * flight * down - Vector3(0, 3, 0) +
+                            0.5 * flight * flight * Vector3(0, 0, -9.8);
+        EXPECT_NEAR((test::final_of(result, "ball").position - end).norm(), 0.0, 1e-10);
+      }
+}
+
 TEST(Rest, AFloorOfTilesCarriesOnToItsEnd) {
   for (const std::string ball :
        {"position = [0, 0, 1e-3]\n", "shape = \"sphere\"\nradius = 0.1\nposition = [0, 0, 0.101]\n"})

@@ -163,7 +163,7 @@ TEST(Run, InterruptWritesWhatWasComputed) {
 TEST(Run, WhatIsNoNumberIsNanInTheCsv) {
   const TemporaryFolder folder;
   const std::string scene = folder.write(
-      "s.toml", "[time]\nend = 2\n[[body]]\nname = \"b\"\nacceleration = \"[sqrt(1 - t), -sqrt(1 - t), 0]\"\n");
+      "s.toml", "[time]\nend = 2\n[[body]]\nname = \"b\"\nacceleration = \"[sqrt(-1 - t), -sqrt(-1 - t), 0]\"\n");
   const ProgramResult result = run_trajet({"run", scene, "--csv", "-"});
   EXPECT_EQ(result.exit_code, 4);
   const std::vector<std::string> last = cells(lines(result.out).back());

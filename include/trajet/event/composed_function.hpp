@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "trajet/event/path.hpp"
@@ -90,9 +91,29 @@ class ComposedFunction {
     const BernsteinForm form(coefficients, from, to);
     const Interval h = Interval(to) - Interval(from);
     IntervalJet x(interval(form.value_range()));
+    if (form.is_nearly_straight()) {
+      // differences of rounded coefficients over a short time say little of the derivatives
+      std::array<double, kMaxPolynomialDegree + 1> derivative;
+      std::ranges::copy(coefficients, derivative.begin());
+      std::span<double> d(derivative.data(), coefficients.size());
+      for (const int order : {1, 2}) {
+        d = differentiate(d);
+        x[order] = interval(BernsteinForm(d, from, to).value_range()) / static_cast<double>(order);
+      }
+      return x;
+    }
     x[1] = interval(form.first_difference_range()) / h;
     x[2] = interval(form.second_difference_range()) / (2.0 * square(h));
     return x;
+  }
+
+  /// Turns the coefficients of a polynomial into those of its derivative; a constant's is one zero.
+  static std::span<double> differentiate(std::span<double> coefficients) {
+    for (std::size_t k = 1; k < coefficients.size(); ++k)
+      coefficients[k - 1] = static_cast<double>(k) * coefficients[k];
+    if (coefficients.size() > 1) return coefficients.first(coefficients.size() - 1);
+    coefficients[0] = 0.0;
+    return coefficients;
   }
 
   const Path<Count>& path_;

@@ -101,6 +101,15 @@ class BernsteinForm {
     return scaled(d, degree_, 2.0 * error_);
   }
 
+  /// Whether the second differences are small: rounding errors spoil them.
+  bool is_nearly_straight() const {
+    constexpr double kSmall = 4096.0;  // times the error of a coefficient, of which they carry four
+    double largest = 0.0;
+    for (int i = 0; i + 1 < degree_; ++i)
+      largest = std::max(largest, std::abs((at(b_, i + 2) - at(b_, i + 1)) - (at(b_, i + 1) - at(b_, i))));
+    return largest <= kSmall * error_;
+  }
+
   /// Encloses the second derivative with respect to s on the interval: h^2 times the second derivative in time.
   Range second_difference_range() const {
     if (degree_ < 2) return {0.0, 0.0};

@@ -80,6 +80,7 @@ ContactResult report(const F& gap, const GapContact& contact, const MovingBall& 
   const SurfacePoint surface = place(result.position);
   result.point = surface.point;
   result.normal = contact.side_before < 0 ? Vector3(-surface.normal) : surface.normal;
+  result.side_before = contact.side_before;
   result.direction = !is_solid                 ? ContactDirection::through
                      : contact.side_before > 0 ? ContactDirection::entering
                                                : ContactDirection::leaving;
@@ -91,7 +92,8 @@ ContactResult report(const F& gap, const GapContact& contact, const MovingBall& 
   const double by_curvature = std::sqrt(2.0 * position_error / std::abs(sample.jet.curvature));
   const double error = position_error > 0.0 ? std::min(by_rate, by_curvature) : 0.0;
   const double time_rounding = 2.0 * kUnitRoundoff * (std::abs(path.t0()) + std::abs(result.time));
-  result.time_error_bound = contact.root_error + error + time_rounding;
+  result.time_resolution = contact.root_error + time_rounding;
+  result.time_error_bound = result.time_resolution + error;
 
   result.memory.contact_time = result.time;
   result.memory.tolerance = std::max(sample.tolerance, 2.0 * time_rounding * std::abs(sample.jet.rate));

@@ -59,7 +59,9 @@ struct ContactResult {
   Vector3 normal = Vector3::Zero();    ///< unit, of the obstacle at the point, towards the side that the body came from
   Vector3 position = Vector3::Zero();  ///< of the ball's centre
   ContactDirection direction = ContactDirection::entering;
-  ContactMemory memory;  ///< for what follows, if the body passes through
+  int side_before = 0;           ///< of a contact: from which the body came, as in ContactMemory
+  double time_resolution = 0.0;  ///< s: the part of time_error_bound that rounding makes
+  ContactMemory memory;          ///< for what follows, if the body passes through
 };
 
 }  // namespace trajet
