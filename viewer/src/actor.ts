@@ -19,7 +19,9 @@ export interface Visibility {
 
 /** px: the length of the arrow of the largest velocity or acceleration, in a picture whose smaller side is so long. */
 export const arrowPixels = (size: number): number => Math.min(110, 0.2 * size);
-/** px: the length of a body's axes, and the size of a body too small to see. */
+/** The length of a body's axes, in how far the body reaches. */
+const kAxisReach = 1.4;
+/** px: the least length of a body's axes, and the size of a body too small to see. */
 const kAxisPixels = 45;
 const kDotPixels = 9;
 
@@ -209,12 +211,12 @@ export class Actor {
     this.axes.position.copy(local);
     this.axes.quaternion.copy(turn);
     for (const axis of this.axes.children)
-      stretch(axis, Math.max(1.4 * this.reach, kAxisPixels * size), 2 * kAxisPixels * size);
+      stretch(axis, Math.max(kAxisReach * this.reach, kAxisPixels * size), 2 * kAxisPixels * size);
 
     this.showWay(t, local, shown.trails);
   }
 
-  /** Where arrows come to on the way, if the longest are so long, in the drawing. */
+  /** Where arrows and axes come to on the way, if the longest arrows are so long, in the drawing. */
   arrowTips(longest: number): THREE.Vector3[] {
     const { motion } = this;
     const { begin, end } = motion.track;
@@ -228,6 +230,11 @@ export class Actor {
       };
       add(motion.velocity(t), this.mostSpeed);
       add(motion.acceleration(t), this.mostAcceleration);
+      // axes come to any side of the body
+      const axis = motion.turns ? Math.max(kAxisReach * this.reach, longest / 2) : 0;
+      if (axis > 0)
+        for (const side of [-axis, axis])
+          tips.push(...[0, 1, 2].map((k) => place.clone().setComponent(k, place.getComponent(k) + side)));
     }
     return tips;
   }
