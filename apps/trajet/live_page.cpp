@@ -1,8 +1,10 @@
 #include <fmt/format.h>
 
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <utility>
 
 #include "loopback_server.hpp"
 #include "run_monitor.hpp"
@@ -25,13 +27,15 @@ class LivePage {
 
   /// Looks at the file, and makes the page anew if it has changed.
   void update() {
+    // An editor that empties the file and then fills it may do both within one tick of the file's time.
     std::error_code missing;
-    const auto written = std::filesystem::last_write_time(arguments_.scene, missing);
-    if (version_ > 0 && written == written_) return;
-    written_ = written;
+    const std::pair state(std::filesystem::last_write_time(arguments_.scene, missing),
+                          std::filesystem::file_size(arguments_.scene, missing));
+    if (version_ > 0 && state == state_) return;
+    state_ = state;
     ++version_;
     PageOptions options;
-    options.is_live = true;
+    options.live_version = version_;
     try {
       html_ = make_view_page(arguments_, options).html;
     } catch (const InputError& error) {
@@ -48,7 +52,7 @@ class LivePage {
 
  private:
   const ViewArguments& arguments_;
-  std::filesystem::file_time_type written_;
+  std::pair<std::filesystem::file_time_type, std::uintmax_t> state_;  // of the scene's file
   long version_ = 0;
   std::string html_;
 };

@@ -24,7 +24,7 @@ std::string for_script(const Json& json) {
 std::string fill_template(Json data, const PageOptions& options) {
   if (!page_unavailable().empty()) throw FileError(page_unavailable());
   data["trajet"] = kVersion;
-  data["live"] = options.is_live;
+  data["live"] = options.live_version;
   constexpr std::string_view kMark = "id=\"trajet-data\">";
   const std::string_view page = detail::kPageTemplate;
   const std::size_t begin = page.find(kMark) + kMark.size();

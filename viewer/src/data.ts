@@ -115,8 +115,8 @@ export interface SceneError {
 
 export interface PageData {
   trajet: string;
-  /** Whether a server makes the page anew when its scene changes. */
-  live: boolean;
+  /** The number of a page that a server makes anew when its scene changes; 0: there is no such server. */
+  live: number;
   runs?: RunData[];
   error?: SceneError;
 }

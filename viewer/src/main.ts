@@ -17,7 +17,7 @@ applyTheme(initialTheme());
 if (data?.error) page.append(errorPage(data.error));
 else if (data?.runs) window.trajet = new App(page, data.runs, data.live ? keptTime() : undefined);
 else page.append(element("main", { class: "error" }, element("p", {}, "This page holds no run.")));
-if (data?.live) void reloadWhenChanged();
+if (data?.live) void reloadWhenChanged(String(data.live));
 
 /** The time that was shown before the scene changed, if any was. */
 function keptTime(): number | undefined {
@@ -25,13 +25,11 @@ function keptTime(): number | undefined {
   return text === null ? undefined : Number(text);
 }
 
-/** Asks the server, which answers with the number of the page's version. */
-async function reloadWhenChanged(): Promise<void> {
-  let own: string | null = null;
+/** Asks the server, which answers with the number of the newest version, for another one than this page's `own`. */
+async function reloadWhenChanged(own: string): Promise<void> {
   for (;;) {
     try {
       const version = await (await fetch("version", { cache: "no-store" })).text();
-      own ??= version;
       if (version !== own) {
         if (window.trajet) sessionStorage.setItem(kTimeKey, String(window.trajet.time));
         return location.reload();

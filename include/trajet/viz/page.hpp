@@ -15,8 +15,9 @@ struct PageRun {
 };
 
 struct PageOptions {
-  /// The page asks its server for a newer version of itself, and reloads when there is one.
-  bool is_live = false;
+  /// The number of a page that asks its server for another version of itself, and reloads when there is one; 0: it does
+  /// not.
+  long live_version = 0;
 };
 
 /// Why the page cannot be shown in this build of trajet; empty where it can.
