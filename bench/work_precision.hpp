@@ -3,6 +3,7 @@
 #include <benchmark/benchmark.h>
 
 #include <string>
+#include <utility>
 
 namespace trajet::bench {
 
@@ -40,7 +41,7 @@ void add_case(const Case& properties, Solve solve) {
     double error = 0.0;
     for (auto _ : state) {
       error = solve();
-      benchmark::DoNotOptimize(error);
+      benchmark::DoNotOptimize(std::as_const(error));
     }
     state.counters["error"] = error < kFailed ? error : kFailed;  // also where it is not a number
   })->Unit(benchmark::kMicrosecond);
