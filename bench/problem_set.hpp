@@ -9,7 +9,7 @@
 #include "problems/free_kick.hpp"
 #include "problems/free_top.hpp"
 #include "problems/kepler.hpp"
-#include "trajet/sim/scene.hpp"
+#include "trajet/scene/scene.hpp"
 
 /// The smooth problems of the benchmark: for each its name in the tables, its true end, and the same as a scene.
 namespace trajet::bench {

@@ -2,8 +2,8 @@
 
 #include "problem_set.hpp"
 #include "trajet/ode/registry.hpp"
-#include "trajet/sim/program_system.hpp"
-#include "trajet/sim/world.hpp"
+#include "trajet/scene/program_system.hpp"
+#include "trajet/scene/world.hpp"
 #include "work_precision.hpp"
 
 /// The smooth problems as scenes: the law is text, compiled to a program that an interpreter runs.

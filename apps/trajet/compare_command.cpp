@@ -11,7 +11,7 @@
 #include "trajet/io/compare_report.hpp"
 #include "trajet/io/output_file.hpp"
 #include "trajet/io/scene_file.hpp"
-#include "trajet/sim/compare.hpp"
+#include "trajet/study/compare.hpp"
 #include "trajet/viz/compare_figure.hpp"
 
 namespace trajet {

@@ -6,7 +6,7 @@
 #include "example_scenes.hpp"
 #include "trajet/io/output_file.hpp"
 #include "trajet/io/scene_file.hpp"
-#include "trajet/law/did_you_mean.hpp"
+#include "trajet/text/did_you_mean.hpp"
 
 namespace trajet {
 

@@ -10,7 +10,7 @@
 
 #include "commands.hpp"
 #include "trajet/error.hpp"
-#include "trajet/law/did_you_mean.hpp"
+#include "trajet/text/did_you_mean.hpp"
 #include "trajet/version.hpp"
 
 namespace trajet {

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "terminal.hpp"
-#include "trajet/sim/world.hpp"
+#include "trajet/scene/world.hpp"
 
 namespace trajet {
 

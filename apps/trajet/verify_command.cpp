@@ -10,8 +10,8 @@
 #include "text_table.hpp"
 #include "trajet/io/output_file.hpp"
 #include "trajet/io/scene_file.hpp"
-#include "trajet/sim/compare.hpp"
 #include "trajet/sim/run.hpp"
+#include "trajet/study/compare.hpp"
 
 namespace trajet {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <map>
 
-#include "trajet/law/did_you_mean.hpp"
+#include "trajet/text/did_you_mean.hpp"
 
 namespace trajet::detail {
 

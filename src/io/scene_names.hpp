@@ -1,6 +1,6 @@
 #pragma once
 
-#include "trajet/sim/scene.hpp"
+#include "trajet/scene/scene.hpp"
 
 namespace trajet::detail {
 

@@ -4,8 +4,8 @@
 #include <string_view>
 
 #include "formula_text.hpp"
-#include "trajet/law/did_you_mean.hpp"
 #include "trajet/rigid/orientation.hpp"
+#include "trajet/text/did_you_mean.hpp"
 
 namespace trajet {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "trajet/sim/scene.hpp"
+#include "trajet/scene/scene.hpp"
 #include "value_reader.hpp"
 
 namespace trajet::detail {

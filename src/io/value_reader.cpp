@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "formula_text.hpp"
-#include "trajet/law/did_you_mean.hpp"
+#include "trajet/text/did_you_mean.hpp"
 
 namespace trajet::detail {
 

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "syntax.hpp"
-#include "trajet/math/shortest_text.hpp"
+#include "trajet/text/shortest_text.hpp"
 
 namespace trajet {
 namespace {

@@ -4,7 +4,7 @@
 
 #include "lexer.hpp"
 #include "syntax.hpp"
-#include "trajet/law/did_you_mean.hpp"
+#include "trajet/text/did_you_mean.hpp"
 
 namespace trajet::detail {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "graph.hpp"
 #include "syntax.hpp"
-#include "trajet/law/did_you_mean.hpp"
+#include "trajet/text/did_you_mean.hpp"
 
 namespace trajet {
 namespace detail {

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "trajet/scene/world.hpp"
 #include "trajet/sim/run_result.hpp"
-#include "trajet/sim/world.hpp"
 
 namespace trajet {
 

@@ -4,13 +4,14 @@
 #include <string>
 #include <vector>
 
-#include "event_watch.hpp"
-#include "resting_contact.hpp"
 #include "rotations.hpp"
 #include "trajet/collide/detect/table.hpp"
+#include "trajet/collide/sustain/resting_contact.hpp"
+#include "trajet/event/event_watch.hpp"
 #include "trajet/ode/registry.hpp"
-#include "trajet/sim/program_system.hpp"
-#include "trajet/sim/world.hpp"
+#include "trajet/scene/program_system.hpp"
+#include "trajet/scene/world.hpp"
+#include "trajet/sim/run_result.hpp"
 
 namespace trajet {
 

@@ -1,7 +1,6 @@
 #include "rotations.hpp"
 
 #include <algorithm>
-#include <limits>
 
 #include "trajet/sim/run_result.hpp"
 
@@ -69,46 +68,6 @@ Eigen::VectorXd MotionPiece::state(double t) const {
   Eigen::VectorXd q = segment.state(t);
   rotations.settle(t, q);
   return q;
-}
-
-void settle_orientations(const World& world, int group, Eigen::VectorXd& q) {
-  for (const int body : world.groups[static_cast<std::size_t>(group)].bodies)
-    if (const auto& rotation = world.bodies[static_cast<std::size_t>(body)].rotation)
-      rotation->layout.settle(q.data() + rotation->offset);
-}
-
-Eigen::VectorXd carried_as_in(const World& to, const World& from, int group, const Eigen::VectorXd& q) {
-  const auto g = static_cast<std::size_t>(group);
-  Eigen::VectorXd result(to.groups[g].start.size());
-  for (const int b : to.groups[g].bodies) {
-    const World::Body& here = to.bodies[static_cast<std::size_t>(b)];
-    const World::Body& there = from.bodies[static_cast<std::size_t>(b)];
-    result.segment<6>(here.offset) = q.segment<6>(there.offset);
-    if (!here.rotation) continue;
-    const OrientationLayout &layout = here.rotation->layout, &other = there.rotation->layout;
-    const auto numbers = q.segment(there.rotation->offset, other.size());
-    auto part = result.segment(here.rotation->offset, layout.size());
-    if (layout.way == other.way) {
-      part = numbers;
-    } else if (!numbers.allFinite()) {
-      part.setConstant(std::numeric_limits<double>::quiet_NaN());
-    } else {
-      const bool is_matrix = other.way == OrientationWay::matrix;
-      layout.put(is_matrix ? from_rotation_matrix(nearest_rotation(other.matrix(numbers.data())))
-                           : other.quaternion(numbers.data()).normalized(),
-                 part.data());
-    }
-    result.segment<3>(here.rotation->offset + layout.size()) = q.segment<3>(there.rotation->offset + other.size());
-  }
-  for (std::size_t s = 0; s < to.states.size(); ++s)
-    if (to.states[s].group == group) result[to.states[s].offset] = q[from.states[s].offset];
-  return result;
-}
-
-void align_orientations(const World& world, int group, Eigen::VectorXd& q, const Eigen::VectorXd& other) {
-  for (const int body : world.groups[static_cast<std::size_t>(group)].bodies)
-    if (const auto& rotation = world.bodies[static_cast<std::size_t>(body)].rotation)
-      rotation->layout.align(q.data() + rotation->offset, other.data() + rotation->offset);
 }
 
 double Rotations::unsettled(const Eigen::VectorXd& q) const {

@@ -3,7 +3,7 @@
 #include <chrono>
 
 #include "simulation.hpp"
-#include "trajet/sim/world.hpp"
+#include "trajet/scene/world.hpp"
 
 namespace trajet {
 

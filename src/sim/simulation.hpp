@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "motion.hpp"
+#include "trajet/scene/world.hpp"
 #include "trajet/sim/run_result.hpp"
-#include "trajet/sim/world.hpp"
 
 namespace trajet {
 

@@ -11,7 +11,7 @@
 #include "pose_strip.hpp"
 #include "rotation_panels.hpp"
 #include "row_style.hpp"
-#include "trajet/law/did_you_mean.hpp"
+#include "trajet/text/did_you_mean.hpp"
 
 namespace trajet {
 

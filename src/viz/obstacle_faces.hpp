@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "trajet/geom/faces.hpp"
-#include "trajet/sim/world.hpp"
+#include "trajet/scene/world.hpp"
 
 namespace trajet::detail {
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "drawing.hpp"
-#include "trajet/sim/compare.hpp"
+#include "trajet/study/compare.hpp"
 
 namespace trajet::detail {
 

@@ -11,16 +11,19 @@ import sys
 
 # A layer may include itself and what stands here. "ode/segment" is that one header.
 ALLOWED = {
-    "math": set(),
-    "law": {"math"},
-    "ode": {"math"},
+    "text": set(),
+    "math": {"text"},
+    "law": {"math", "text"},
+    "ode": {"math", "text"},
     "geom": {"math"},
     "rigid": {"math", "ode/segment"},
-    "event": {"math", "ode/segment"},
-    "collide": {"math", "ode/segment", "geom", "rigid", "event"},
+    "event": {"math", "law", "ode/segment"},
+    "collide": {"math", "law", "ode/segment", "geom", "rigid", "event"},
 }
-ALLOWED["sim"] = set(ALLOWED)
-ALLOWED["ensemble"] = ALLOWED["sim"] | {"sim"}
+ALLOWED["scene"] = set(ALLOWED)
+ALLOWED["sim"] = ALLOWED["scene"] | {"scene"}
+ALLOWED["study"] = ALLOWED["sim"] | {"sim"}
+ALLOWED["ensemble"] = ALLOWED["study"] | {"study"}
 ALLOWED["io"] = ALLOWED["viz"] = ALLOWED["ensemble"] | {"ensemble"}
 ALLOWED["apps"] = ALLOWED["io"] | {"io", "viz"}
 # Headers directly in include/trajet/ that every layer may include; any other one is for users of the library only.

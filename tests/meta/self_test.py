@@ -41,7 +41,7 @@ class IncludeDirections(Tree):
         self.check("src/law/parser.cpp", ["trajet/error.hpp", "trajet/version.hpp", "trajet/math/roots.hpp", "lexer.hpp"], False)
         self.check("include/trajet/event/locate.hpp", ["trajet/ode/segment.hpp"], False)
         self.check("include/trajet/collide/detect/table.hpp", ["trajet/geom/box.hpp", "trajet/math/roots.hpp"], False)
-        self.check("src/sim/world.cpp", ["trajet/law/program.hpp", "trajet/ode/stepper.hpp"], False)
+        self.check("src/scene/world.cpp", ["trajet/law/program.hpp", "trajet/ode/stepper.hpp"], False)
 
     def test_math_includes_a_layer(self):
         self.check("src/math/x.cpp", ["trajet/ode/segment.hpp", "trajet/sim/run.hpp"], True)
@@ -53,11 +53,11 @@ class IncludeDirections(Tree):
         self.check("include/trajet/event/locate.hpp", ["trajet/ode/stepper.hpp"], True)
 
     def test_private_header_of_another_layer(self):
-        self.check("src/sim/world.cpp", ["../io/units.hpp"], True)
+        self.check("src/scene/world.cpp", ["../io/units.hpp"], True)
         self.check("src/ode/x.cpp", ["../law/lexer.hpp", "law/lexer.hpp"], True)
 
     def test_problems_and_umbrella(self):
-        self.check("src/sim/world.cpp", ["../../problems/kepler.hpp", "problems/kepler.hpp", "trajet/trajet.hpp"], True)
+        self.check("src/scene/world.cpp", ["../../problems/kepler.hpp", "problems/kepler.hpp", "trajet/trajet.hpp"], True)
 
     def test_leaf_includes_a_layer(self):
         self.check("include/trajet/error.hpp", ["trajet/math/roots.hpp"], True)

@@ -11,7 +11,7 @@
 
 #include "scene_run.hpp"
 #include "trajet/math/bernstein.hpp"
-#include "trajet/sim/world.hpp"
+#include "trajet/scene/world.hpp"
 
 namespace trajet {
 namespace {

@@ -1,4 +1,4 @@
-#include "trajet/sim/compare.hpp"
+#include "trajet/study/compare.hpp"
 
 #include <gtest/gtest.h>
 

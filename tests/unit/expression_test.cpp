@@ -5,8 +5,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "trajet/law/did_you_mean.hpp"
 #include "trajet/law/program_builder.hpp"
+#include "trajet/text/did_you_mean.hpp"
 
 namespace trajet {
 namespace {

@@ -4,7 +4,7 @@
 #include <map>
 
 #include "scene_run.hpp"
-#include "trajet/sim/world.hpp"
+#include "trajet/scene/world.hpp"
 
 namespace trajet {
 namespace {

@@ -4,8 +4,8 @@
 
 #include "trajet/io/scene_file.hpp"
 #include "trajet/io/scene_overrides.hpp"
+#include "trajet/scene/world.hpp"
 #include "trajet/sim/run.hpp"
-#include "trajet/sim/world.hpp"
 
 namespace trajet {
 namespace {

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "scene_run.hpp"
-#include "trajet/sim/compare.hpp"
+#include "trajet/study/compare.hpp"
 
 namespace trajet {
 namespace {

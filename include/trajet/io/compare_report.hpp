@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "trajet/sim/compare.hpp"
+#include "trajet/study/compare.hpp"
 
 namespace trajet {
 

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "trajet/sim/scene.hpp"
+#include "trajet/scene/scene.hpp"
 
 namespace trajet {
 

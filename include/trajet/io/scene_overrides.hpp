@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "trajet/sim/scene.hpp"
+#include "trajet/scene/scene.hpp"
 
 namespace trajet {
 

@@ -10,10 +10,10 @@
 #include <utility>
 #include <vector>
 
-#include "trajet/math/shortest_text.hpp"
 #include "trajet/ode/segment.hpp"
 #include "trajet/ode/step_grid.hpp"
 #include "trajet/ode/stepper.hpp"
+#include "trajet/text/shortest_text.hpp"
 
 namespace trajet {
 

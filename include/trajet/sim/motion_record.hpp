@@ -3,8 +3,8 @@
 #include <optional>
 #include <vector>
 
+#include "trajet/scene/world.hpp"
 #include "trajet/sim/run_result.hpp"
-#include "trajet/sim/world.hpp"
 
 namespace trajet {
 

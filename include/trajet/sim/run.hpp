@@ -1,7 +1,7 @@
 #pragma once
 
+#include "trajet/scene/scene.hpp"
 #include "trajet/sim/run_result.hpp"
-#include "trajet/sim/scene.hpp"
 
 namespace trajet {
 

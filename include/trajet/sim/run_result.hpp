@@ -7,6 +7,7 @@
 #include "trajet/math/vector.hpp"
 #include "trajet/ode/segment.hpp"
 #include "trajet/ode/stepper.hpp"
+#include "trajet/scene/named_value.hpp"
 
 namespace trajet {
 
@@ -70,11 +71,6 @@ struct BodyState {
   Matrix3 rotation_matrix = Matrix3::Identity();  ///< R_WB, as carried: it may stretch where the way lets it
   Vector3 angular_velocity = Vector3::Zero();
   std::vector<PointState> points;
-};
-
-struct NamedValue {
-  std::string name;
-  double value = 0.0;
 };
 
 /// All bodies and extra states at one time. An impact has two: before and after it.

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "trajet/sim/compare.hpp"
+#include "trajet/study/compare.hpp"
 #include "trajet/viz/curve.hpp"
 #include "trajet/viz/figure.hpp"
 #include "trajet/viz/pose.hpp"

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "trajet/law/symbols.hpp"
-#include "trajet/sim/run_result.hpp"
-#include "trajet/sim/scene.hpp"
+#include "trajet/scene/named_value.hpp"
+#include "trajet/scene/scene.hpp"
 
 namespace trajet {
 

@@ -2,7 +2,7 @@
 
 #include "scene_numbers.hpp"
 #include "trajet/law/program_builder.hpp"
-#include "trajet/sim/world.hpp"
+#include "trajet/scene/world.hpp"
 
 namespace trajet {
 

@@ -1,4 +1,4 @@
-#include "trajet/law/did_you_mean.hpp"
+#include "trajet/text/did_you_mean.hpp"
 
 #include <algorithm>
 #include <vector>

@@ -5,11 +5,11 @@
 #include <vector>
 
 #include "trajet/event/composed_function.hpp"
+#include "trajet/event/crossing.hpp"
 #include "trajet/law/evaluate.hpp"
 #include "trajet/law/program.hpp"
 #include "trajet/math/series.hpp"
 #include "trajet/ode/segment.hpp"
-#include "trajet/sim/scene.hpp"
 
 namespace trajet {
 

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "scene_numbers.hpp"
-#include "trajet/sim/scene.hpp"
-#include "trajet/sim/world.hpp"
+#include "trajet/scene/scene.hpp"
+#include "trajet/scene/world.hpp"
 
 namespace trajet {
 

@@ -1,9 +1,9 @@
-#include "trajet/sim/reference.hpp"
+#include "trajet/study/reference.hpp"
 
 #include <algorithm>
 #include <limits>
 
-#include "trajet/math/shortest_text.hpp"
+#include "trajet/text/shortest_text.hpp"
 
 namespace trajet {
 namespace {

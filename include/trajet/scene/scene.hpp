@@ -8,6 +8,7 @@
 
 #include "trajet/collide/detect/contact.hpp"
 #include "trajet/error.hpp"
+#include "trajet/event/crossing.hpp"
 #include "trajet/geom/triangle_mesh.hpp"
 #include "trajet/law/expression.hpp"
 #include "trajet/rigid/orientation.hpp"
@@ -158,7 +159,6 @@ struct StateDefinition {
   SourceLocation where{};
 };
 
-enum class CrossingDirection { rising, falling, any };
 enum class EventAction { record, stop, set };
 
 /// Something to notice when `when` crosses zero.

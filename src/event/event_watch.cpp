@@ -1,4 +1,4 @@
-#include "event_watch.hpp"
+#include "trajet/event/event_watch.hpp"
 
 #include <cmath>
 #include <utility>

@@ -1,4 +1,4 @@
-#include "solid.hpp"
+#include "body_maker.hpp"
 
 #include <algorithm>
 #include <cmath>

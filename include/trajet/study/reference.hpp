@@ -6,8 +6,8 @@
 
 #include "trajet/law/evaluate.hpp"
 #include "trajet/ode/segment.hpp"
+#include "trajet/scene/world.hpp"
 #include "trajet/sim/run_result.hpp"
-#include "trajet/sim/world.hpp"
 
 namespace trajet {
 

@@ -1,4 +1,4 @@
-#include "resting_contact.hpp"
+#include "trajet/collide/sustain/resting_contact.hpp"
 
 #include <Eigen/QR>
 #include <array>

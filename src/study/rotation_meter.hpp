@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "trajet/sim/compare.hpp"
-#include "trajet/sim/world.hpp"
+#include "trajet/scene/world.hpp"
+#include "trajet/study/compare.hpp"
 
 namespace trajet {
 

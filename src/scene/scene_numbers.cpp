@@ -5,7 +5,7 @@
 
 #include "trajet/law/program_builder.hpp"
 #include "trajet/math/quaternion.hpp"
-#include "trajet/math/shortest_text.hpp"
+#include "trajet/text/shortest_text.hpp"
 
 namespace trajet {
 namespace {

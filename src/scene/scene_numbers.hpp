@@ -4,7 +4,7 @@
 
 #include "trajet/geom/shapes.hpp"
 #include "trajet/law/symbols.hpp"
-#include "trajet/sim/scene.hpp"
+#include "trajet/scene/scene.hpp"
 
 namespace trajet {
 

@@ -5,8 +5,8 @@
 #include <string_view>
 #include <vector>
 
-#include "trajet/law/did_you_mean.hpp"
-#include "trajet/sim/program_system.hpp"
+#include "trajet/scene/program_system.hpp"
+#include "trajet/text/did_you_mean.hpp"
 
 namespace trajet {
 namespace {

@@ -1,4 +1,4 @@
-#include "trajet/sim/compare.hpp"
+#include "trajet/study/compare.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,8 +6,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "carried_orientations.hpp"
 #include "error_meter.hpp"
-#include "rotations.hpp"
 #include "trajet/sim/run.hpp"
 
 namespace trajet {

@@ -3,9 +3,9 @@
 #include <vector>
 
 #include "rotation_meter.hpp"
-#include "trajet/sim/compare.hpp"
-#include "trajet/sim/reference.hpp"
-#include "trajet/sim/world.hpp"
+#include "trajet/scene/world.hpp"
+#include "trajet/study/compare.hpp"
+#include "trajet/study/reference.hpp"
 
 namespace trajet {
 

@@ -1,4 +1,4 @@
-#include "trajet/sim/world.hpp"
+#include "trajet/scene/world.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,11 +7,11 @@
 #include <set>
 #include <string_view>
 
+#include "body_maker.hpp"
 #include "partition.hpp"
 #include "scene_method.hpp"
 #include "scene_numbers.hpp"
 #include "scene_symbols.hpp"
-#include "solid.hpp"
 #include "start_check.hpp"
 #include "trajet/law/evaluate.hpp"
 #include "trajet/law/program_builder.hpp"

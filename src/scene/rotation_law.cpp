@@ -1,6 +1,6 @@
 #include <array>
 
-#include "solid.hpp"
+#include "body_maker.hpp"
 #include "trajet/law/term.hpp"
 
 namespace trajet {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "trajet/sim/world.hpp"
+#include "trajet/scene/world.hpp"
 
 namespace trajet {
 

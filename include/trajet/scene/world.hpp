@@ -9,8 +9,8 @@
 #include "trajet/law/program.hpp"
 #include "trajet/ode/registry.hpp"
 #include "trajet/rigid/orientation.hpp"
-#include "trajet/sim/run_result.hpp"
-#include "trajet/sim/scene.hpp"
+#include "trajet/scene/named_value.hpp"
+#include "trajet/scene/scene.hpp"
 
 namespace trajet {
 

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "trajet/sim/reference.hpp"
+#include "trajet/scene/scene.hpp"
 #include "trajet/sim/run_result.hpp"
-#include "trajet/sim/scene.hpp"
+#include "trajet/study/reference.hpp"
 
 namespace trajet {
 

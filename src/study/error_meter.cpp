@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "rotations.hpp"
+#include "carried_orientations.hpp"
 
 namespace trajet {
 namespace {
