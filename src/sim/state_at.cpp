@@ -1,0 +1,27 @@
+#include "trajet/sim/state_at.hpp"
+
+namespace trajet {
+
+void read_orientations(const World& world, int group, Eigen::VectorXd& q) {
+  for (const int body : world.groups[static_cast<std::size_t>(group)].bodies)
+    if (const auto& rotation = world.bodies[static_cast<std::size_t>(body)].rotation)
+      rotation->layout.settle(q.data() + rotation->offset);
+}
+
+Eigen::VectorXd state_at(const World& world, int group, const Segment<>& segment, double t) {
+  Eigen::VectorXd q = segment.state(t);
+  read_orientations(world, group, q);
+  return q;
+}
+
+Pose pose_in(const World::Body& body, const Eigen::VectorXd& q) {
+  const Vector3 position = q.segment<3>(body.offset);
+  if (!body.rotation) return {position, body.q_WB};
+  const OrientationLayout& layout = body.rotation->layout;
+  const double* part = q.data() + body.rotation->offset;
+  if (layout.way == OrientationWay::matrix)
+    return {position, from_rotation_matrix(nearest_rotation(layout.matrix(part)))};
+  return {position, layout.quaternion(part).normalized()};
+}
+
+}  // namespace trajet
