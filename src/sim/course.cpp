@@ -22,7 +22,7 @@ Course::Course(const World& world, int group)
       free_system_(std::make_unique<ProgramSystem>(this->group().law)),
       orientations_(world, group),
       closed_rotations_(world, group),
-      error_(world, group) {
+      error_(static_cast<int>(this->group().start.size())) {
   for (const int event : this->group().events) {
     const World::Event& definition = world.events[static_cast<std::size_t>(event)];
     watches_.push_back({Crossing::Kind::event, event, EventWatch(definition.when, definition.direction)});
@@ -89,7 +89,8 @@ std::optional<MotionPiece> Course::hand_on(double t) {
 
 void Course::restart(const Instant& instant) {
   const double t = instant.time();
-  error_.pass(segment_, t, end_state_);
+  error_.pass(law(), segment_, t);
+  error_.jump(instant.derivative);
   const auto same = [](const RestingContact& a, const RestingContact& b) {
     return a.body == b.body && a.obstacle == b.obstacle && a.normal == b.normal;
   };
@@ -102,7 +103,7 @@ void Course::restart(const Instant& instant) {
 }
 
 StepStatus Course::advance() {
-  if (segment_.duration() != 0.0) error_.pass(segment_, segment_.t1(), end_state_);
+  if (segment_.duration() != 0.0) error_.pass(law(), segment_, segment_.t1());
   if (rest_of_step_.empty()) {
     if (const StepStatus status = stepper_->advance(world_.end); status != StepStatus::ok) return status;
     stepper_->fill_segment(segment_);

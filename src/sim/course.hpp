@@ -67,8 +67,12 @@ class Course {
   /// The law in a state: dq/dt, without and with the forces of lasting contacts.
   Eigen::VectorXd free_rate(double t, const Eigen::VectorXd& q) const;
   Eigen::VectorXd rate(double t, const Eigen::VectorXd& q) const;
-  /// How far the state may be off where the current Segment begins, in each component's unit: estimated.
-  const Eigen::VectorXd& start_error() const { return error_.bound(); }
+  /// How far the state may be off at a time on the current Segment, in each component's unit: estimated.
+  Eigen::VectorXd error_bound(double t) { return error_.bound(law(), segment_, t); }
+  /// The same along one direction of the state.
+  double error_bound_along(const Eigen::VectorXd& direction, double t) {
+    return error_.bound_along(direction, law(), segment_, t);
+  }
   bool finished() const { return segment_.t1() == world_.end; }
   StepStatistics statistics() const;
   /// What the method has to say of its work.
@@ -81,6 +85,7 @@ class Course {
     EventWatch watch;
   };
 
+  const System& law() const { return held_system_ ? *held_system_ : *free_system_; }
   /// The law with the present lasting contacts, a stepper for it, and watches for the contacts' ends.
   void use_contacts();
   /// `before`: the state in which the course came here; null at the start.

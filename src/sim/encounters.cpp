@@ -54,8 +54,7 @@ ContactResult Encounters::first_contact_until(const Pair& pair, const ContactMem
   const World::Body& body = world_.bodies[static_cast<std::size_t>(pair.id.body)];
   const World::Obstacle& obstacle = world_.obstacles[static_cast<std::size_t>(pair.id.obstacle)];
   const PointPath path(course.segment(), body.offset);
-  const double start_error = course.start_error().segment<3>(body.offset).norm();
-  return first_contact(obstacle.shape, {path, body.radius, from, to, world_.locate, start_error}, memory);
+  return first_contact(obstacle.shape, {path, body.radius, from, to, world_.locate}, memory);
 }
 
 void Encounters::search_whole(Pair& pair, const Course& course) const {
@@ -155,6 +154,18 @@ void Encounters::keep(int body, const Course& course, double t) {
     // a contact right at t, where another pair's was handled first, is still to come
     if (is_met) pair.memory = {.side = contact.side_before, .is_in_plane = contact.memory.is_in_plane};
     pair.known_at = t;
+  }
+}
+
+void Encounters::bound_times(int body, Course& course) {
+  const int offset = world_.bodies[static_cast<std::size_t>(body)].offset;
+  for (Pair& pair : around(body).pairs) {
+    ContactResult& contact = pair.contact;
+    if (contact.status != ContactStatus::hit && contact.status != ContactStatus::graze) continue;
+    Eigen::VectorXd direction = Eigen::VectorXd::Zero(course.segment().dimension());
+    direction.segment<3>(offset) = contact.normal;
+    contact.time_error_bound =
+        contact.time_resolution + contact.time_error(course.error_bound_along(direction, contact.time));
   }
 }
 

@@ -48,6 +48,9 @@ class Encounters {
   /// The other pairs of the same body whose contact cannot be told in time from that of `handled`.
   std::vector<PairId> met_at_once(const Pair& handled) const;
 
+  /// Bounds the errors of the times of the contacts found, by how far the course may be off.
+  void bound_times(int body, Course& course);
+
   /// The body goes through the obstacle, or past it.
   void pass(PairId id, const Course& course);
   /// The body moves away from its last contact with the obstacle: what the Segment shows is that contact still, to its

@@ -3,7 +3,12 @@
 namespace trajet {
 
 Instant::Instant(const Course& course, double time)
-    : q(course.state(time)), contacts(course.contacts()), course_(course), time_(time), before_(q) {}
+    : q(course.state(time)),
+      contacts(course.contacts()),
+      derivative(Eigen::MatrixXd::Identity(q.size(), q.size())),
+      course_(course),
+      time_(time),
+      before_(q) {}
 
 Eigen::VectorXd Instant::rate() const {
   Eigen::VectorXd rate = course_.free_rate(time_, q);
@@ -22,7 +27,13 @@ Vector3 Instant::free_acceleration(int offset) const { return course_.free_rate(
 
 void Instant::stop_blocked_velocity(int offset) {
   auto velocity = q.segment<3>(offset + 3);
-  for (const Vector3& direction : support(offset).blocked) velocity -= velocity.dot(direction) * direction;
+  for (const Vector3& direction : support(offset).blocked) {
+    velocity -= velocity.dot(direction) * direction;
+    for (const int first : {offset, offset + 3}) {
+      auto rows = derivative.middleRows<3>(first);
+      rows -= direction * (direction.transpose() * rows).eval();
+    }
+  }
 }
 
 }  // namespace trajet

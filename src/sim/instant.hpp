@@ -34,6 +34,9 @@ class Instant {
   /// What is known of pairs behind this instant.
   std::vector<std::pair<PairId, ContactMemory>> memories;
 
+  /// The derivative of `q` by `before`, at one time: what an error of the state becomes.  // (state x state)
+  Eigen::MatrixXd derivative;
+
   /// dq/dt in state `q`, the forces of `contacts` included.
   Eigen::VectorXd rate() const;
   /// The acceleration in state `q` of the body at `offset` that the law alone gives it, m/s^2.

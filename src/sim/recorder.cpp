@@ -111,10 +111,23 @@ void Recorder::end(RunStatus status, const std::string& failure) {
   result_.failure = failure;
 }
 
+void Recorder::bound_final_errors() {
+  for (const auto& course : courses_) {
+    const Eigen::VectorXd bound = course->error_bound(result_.end_time);
+    for (const int b : course->group().bodies) {
+      BodyState& state = result_.final.bodies[static_cast<std::size_t>(b)];
+      const int offset = world_.bodies[static_cast<std::size_t>(b)].offset;
+      state.position_error_bound = bound.segment<3>(offset).norm();
+      state.velocity_error_bound = bound.segment<3>(offset + 3).norm();
+    }
+  }
+}
+
 RunResult Recorder::result() {
   for (const auto& course : courses_) motion(*course, result_.end_time);
   if (result_.status != RunStatus::stopped && last_sample_ != result_.end_time) sample(result_.end_time);
   result_.final = sample_at(result_.end_time, std::nullopt);
+  bound_final_errors();
   for (const auto& course : courses_) {
     const StepStatistics statistics = course->statistics();
     result_.statistics.steps += statistics.steps;

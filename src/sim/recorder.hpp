@@ -49,6 +49,7 @@ class Recorder {
 
  private:
   Sample sample_at(double time, std::optional<int> body) const;
+  void bound_final_errors();
 
   const World& world_;
   const Courses& courses_;

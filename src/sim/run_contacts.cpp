@@ -1,6 +1,7 @@
 #include <cmath>
 
 #include "impact_record.hpp"
+#include "jump_derivative.hpp"
 #include "run_loop.hpp"
 #include "ties.hpp"
 #include "trajet/collide/respond/restitution.hpp"
@@ -46,6 +47,7 @@ void RunLoop::handle_contact(int index, const Pair& met) {
   if (impacts.count > kMaxImpactsAtOnce)
     return fail(time, "body '" + body.name + "' has impact after impact with '" + obstacle.name + "' at one instant");
 
+  for (const int each : moving.group().bodies) encounters_.bound_times(each, moving);
   Impact impact = describe(world_, pair, moving.state(time));
   impact.time = time;
   if (is_hit(pair.contact) && obstacle.on_hit == OnHit::bounce) {
@@ -92,6 +94,7 @@ void RunLoop::bounce(int index, Pair pair, Impact impact) {
   // the velocity of the centre is dr/dt, which a position_rate may set apart from v
   const Vector3 approach = instant.rate().segment<3>(body.offset);
   velocity += rebound(approach, impact.normal, obstacle_of(pair).restitution).impulse_per_mass;
+  instant.derivative = derivative_of_bounce(world_, pair, instant, moving.rate(t, instant.before()));
   impact.velocity_after = velocity;
   impact.impulse = mass_of(body, t, instant.q) * (impact.velocity_after - impact.velocity_before);
   // else a flight so low that the Segment does not show it

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "impact_record.hpp"
+#include "jump_derivative.hpp"
 #include "ties.hpp"
 #include "trajet/law/evaluate.hpp"
 
@@ -153,6 +154,7 @@ void RunLoop::handle_event(int index) {
   set(crossing.time, instant.before().data(), values.data());
   for (std::size_t i = 0; i < event.targets.size(); ++i)
     instant.q[event.targets[i]] = values[static_cast<Eigen::Index>(i)];
+  instant.derivative = derivative_of_set(event, instant, moving.rate(crossing.time, instant.before()));
   moving.take_event(crossing.index);
   lasting_contacts_.release_after_set(instant);
   go_on(index, instant);

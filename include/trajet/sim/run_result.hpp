@@ -67,6 +67,8 @@ struct BodyState {
   Matrix3 rotation_matrix = Matrix3::Identity();  ///< R_WB, as carried: it may stretch where the way lets it
   Vector3 angular_velocity = Vector3::Zero();
   std::vector<PointState> points;
+  /// Estimated, m and m/s: how far position and velocity may be off. Of the final state only.
+  std::optional<double> position_error_bound{}, velocity_error_bound{};
 };
 
 /// Bodies and extra states at one time. An impact has two, of the body concerned: before and after it.
