@@ -2,6 +2,7 @@
 
 - A path in README.md or docs/**/*.md, in backticks or a link, that starts with a folder of the project exists.
 - A citation [Key1999] in a document or a source file is an entry of docs/references.bib, and every entry is cited.
+- Every page of docs/ is linked from its index, docs/README.md.
 - No file names a path of somebody's machine.
 - The numbering of the notes that trajet started from, F12 or erratum A1, stands in docs/notes/ and in tests only.
 Prints each violation as FILE:LINE and exits 1 if there is one.
@@ -59,6 +60,17 @@ def check_document(root, document):
                 yield f"{document}:{number}: the link {target} leads nowhere"
 
 
+def missing_in_index(root):
+    """The pages that docs/README.md does not link, if there is one."""
+    index = root / "docs/README.md"
+    if not index.is_file():
+        return
+    linked = {(index.parent / target.split("#")[0]).resolve() for target in LINK.findall(index.read_text(encoding="utf-8"))}
+    for page in sorted((root / "docs").rglob("*.md")):
+        if page != index and page.resolve() not in linked:
+            yield f"docs/README.md: {page.relative_to(root)} is not in the index"
+
+
 def has_notes_numbers(file):
     """Whether the file may use the numbering of the notes; of other kinds than text for people and code none is looked at."""
     folders = file.parts
@@ -89,6 +101,7 @@ def violations(root):
                 cited.add(key)
                 if key not in entries:
                     found.append(f"{file}:{number}: [{key}] is not in docs/references.bib")
+    found += missing_in_index(root)
     found += [f"docs/references.bib: {key} is cited nowhere" for key in sorted(entries - cited)]
     return found, documents
 
