@@ -96,15 +96,23 @@ std::string name(const ComparisonRow& row) {
   return row.orientation.empty() ? row.method : row.method + ", " + row.orientation;
 }
 
+std::string setting(const ComparisonRow& row) {
+  return row.rtol ? fmt::format("rtol {:g}", *row.rtol) : fmt::format("step {} s", cell(row.step));
+}
+
+/// The rows without result, where nobody sees the table.
+void warn_of_failures(const Comparison& comparison) {
+  for (const ComparisonRow& row : comparison.rows)
+    if (!row.succeeded()) fmt::print(stderr, "warning: {}, {}: no result: {}\n", name(row), setting(row), row.failure);
+}
+
 std::string table(const Comparison& comparison, bool color) {
   TextTable table{{"method", "step [s]", "rtol", "error: end", "at samples", "at nodes", "position: end", "at samples",
                    "at nodes", "evaluations", "steps", "rejected", "time [ms]"}};
   std::string failures;
   for (const ComparisonRow& row : comparison.rows) {
-    const std::string setting =
-        row.rtol ? fmt::format("rtol {:g}", *row.rtol) : fmt::format("step {} s", cell(row.step));
     if (!row.succeeded()) {
-      failures += fmt::format("  {}, {}: {}\n", styled(name(row), Style::red, color), setting, row.failure);
+      failures += fmt::format("  {}, {}: {}\n", styled(name(row), Style::red, color), setting(row), row.failure);
       continue;
     }
     table.push_back({name(row), cell(row.step), cell(row.rtol), cell(row.at_end.state), cell(row.at_samples.state),
@@ -193,6 +201,8 @@ int compare_command(const CompareArguments& arguments) {
     if (!comparison.title.empty()) out.write(styled(comparison.title, Style::bold, color) + "\n");
     out.write(reference_line(comparison) + table(comparison, color) + notes(comparison) + rotation_table(comparison));
     out.finish();
+  } else {
+    warn_of_failures(comparison);
   }
   if (plot && monitor.has_motions()) {
     plot->open();

@@ -101,7 +101,7 @@ int run_command(const RunArguments& arguments) {
     html->finish();
   }
   if (glb) {
-    glb->write(gltf_binary(motion, result, arguments.fps));
+    write_gltf(motion, result, arguments.fps, [&](std::string_view part) { glb->write(part); });
     glb->finish();
   }
   if (plot) plot->write(run_figure(result, motion));

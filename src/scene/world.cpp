@@ -40,7 +40,8 @@ class WorldBuilder {
     set_time();
     set_method(scene_.method, numbers_, world_);
     for (const ObstacleDefinition& obstacle : scene_.obstacles)
-      world_.obstacles.push_back({obstacle.name, numbers_.shape(obstacle), obstacle.on_hit, restitution_of(obstacle)});
+      world_.obstacles.push_back(
+          {obstacle.name, numbers_.shape(obstacle), obstacle.on_hit, restitution_of(obstacle), obstacle.color});
     find_dependencies();
     place_in_groups();
     for (std::size_t g = 0; g < world_.groups.size(); ++g) compile_group(static_cast<int>(g));
@@ -165,6 +166,7 @@ class WorldBuilder {
     for (std::size_t i = 0; i < scene_.bodies.size(); ++i) {
       const BodyDefinition& definition = scene_.bodies[i];
       World::Body body = make_body(definition, numbers_, scene_.method);
+      body.color = definition.color;
       body.group = group_of(static_cast<int>(i));
       body.offset = append(group(body.group).start, start_state(definition, body, numbers_));
       if (body.rotation) body.rotation->offset = body.offset + 6;

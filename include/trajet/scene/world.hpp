@@ -48,6 +48,7 @@ struct World {
     Quaternion q_WB{1.0, 0.0, 0.0, 0.0};  ///< at the start, unit
     std::optional<Rotation> rotation;     ///< none: it does not turn
     std::optional<Program> mass;          ///< kg, one output
+    std::optional<RgbColor> color;        ///< as the scene says
     SourceLocation where{};
   };
 
@@ -56,6 +57,7 @@ struct World {
     Shape shape;
     OnHit on_hit = OnHit::stop;
     double restitution = 1.0;
+    std::optional<RgbColor> color{};  ///< as the scene says
   };
 
   struct ExtraState {
