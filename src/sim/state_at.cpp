@@ -14,14 +14,4 @@ Eigen::VectorXd state_at(const World& world, int group, const Segment<>& segment
   return q;
 }
 
-Pose pose_in(const World::Body& body, const Eigen::VectorXd& q) {
-  const Vector3 position = q.segment<3>(body.offset);
-  if (!body.rotation) return {position, body.q_WB};
-  const OrientationLayout& layout = body.rotation->layout;
-  const double* part = q.data() + body.rotation->offset;
-  if (layout.way == OrientationWay::matrix)
-    return {position, from_rotation_matrix(nearest_rotation(layout.matrix(part)))};
-  return {position, layout.quaternion(part).normalized()};
-}
-
 }  // namespace trajet

@@ -16,13 +16,4 @@ Eigen::VectorXd state_at(const World& world, int group, const Segment<>& segment
 /// The numbers of a state of a group, read as above, in place.
 void read_orientations(const World& world, int group, Eigen::VectorXd& q);
 
-/// Where a body's frame is in the world.
-struct Pose {
-  Vector3 p_WB;     ///< m
-  Quaternion q_WB;  ///< unit
-};
-
-/// The pose of a body in a state of its group, as read by `state_at`; what stretches in a matrix is left out.
-Pose pose_in(const World::Body& body, const Eigen::VectorXd& q);
-
 }  // namespace trajet
