@@ -137,7 +137,8 @@ ContactResult Motion::first_contact_until(const Pair& pair, double to) const {
   const World::Obstacle& obstacle = world_.obstacles[static_cast<std::size_t>(pair.obstacle)];
   const PointPath path(segment_, body.offset);
   const double start_error = error_.segment<3>(body.offset).norm();
-  return first_contact(obstacle.shape, {path, body.radius, pair.known_at, to, world_.locate, start_error}, pair.memory);
+  return first_contact(obstacle.shape,
+                       {path, bounding_radius(body.solid), pair.known_at, to, world_.locate, start_error}, pair.memory);
 }
 
 void Motion::know_until(Pair& pair, double t) const {
@@ -213,11 +214,11 @@ bool Motion::stay_in_contact(int index, double height) {
   return true;
 }
 
-void Motion::begin_rest(int index, const Vector3& normal) {
+void Motion::begin_rest(int index, const Vector3& normal, const Vector3& point) {
   Pair& pair = pairs_[static_cast<std::size_t>(index)];
   const World::Body& body = world_.bodies[static_cast<std::size_t>(pair.body)];
   pair.resting = true;
-  resting_.push_back({index, body.offset, normal, normal});
+  resting_.push_back({index, body.offset, normal, point, normal});
   use_law();
 }
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "rotations.hpp"
-#include "trajet/collide/detect/table.hpp"
+#include "trajet/collide/detect/contact_table.hpp"
 #include "trajet/collide/sustain/resting_contact.hpp"
 #include "trajet/event/event_watch.hpp"
 #include "trajet/ode/registry.hpp"
@@ -60,7 +60,7 @@ class Motion {
   /// Goes on from state `q` at time `t`, on which the current Segment ends.
   void restart(double t, const Eigen::VectorXd& q);
   /// The body of the pair stays on the obstacle, whose normal is given, from the next restart on.
-  void begin_rest(int pair, const Vector3& normal);
+  void begin_rest(int pair, const Vector3& normal, const Vector3& point);
   /// From the next restart on, at time t, the resting contact of that index has ended. Returns its pair.
   int end_rest(int resting, double t);
   /// After a restart: the body has bounced off.

@@ -193,8 +193,8 @@ void Simulation::handle_contact(int index, const Incident& incident) {
   const Motion::Pair& pair = moving.pair(incident.index);
   const World::Body& body = body_of(pair);
   const World::Obstacle& obstacle = obstacle_of(pair);
-  if (!body.is_ball) {
-    fail(incident.time, "contact unresolved: " + std::string(body.shape) + " '" + body.name + "' comes within " +
+  if (!is_round(body.solid)) {
+    fail(incident.time, "contact unresolved: body '" + body.name + "' comes within " +
                             "the reach of its farthest point from obstacle '" + obstacle.name +
                             "'; impacts of solids other than points and spheres are not supported yet");
     return;

@@ -6,6 +6,7 @@
 #include "simulation.hpp"
 #include "trajet/collide/respond/restitution.hpp"
 #include "trajet/geom/distance.hpp"
+#include "trajet/geom/flat_faces.hpp"
 
 namespace trajet {
 namespace {
@@ -16,15 +17,6 @@ namespace {
 bool is_below_flight(double speed, double pull, double tolerance) {
   constexpr double kLowestFlight = 1e5;
   return speed * speed <= 2.0 * pull * kLowestFlight * tolerance;
-}
-
-/// Whether a point above a face with that normal is behind the shape, where it is thin.
-bool looks_down(const Shape& shape, const Vector3& normal) {
-  const auto looks = [&](const auto& s) {
-    if constexpr (requires { s.normal; }) return s.normal.dot(normal) < 0.0;
-    return false;
-  };
-  return std::visit(looks, shape);
 }
 
 }  // namespace
@@ -68,17 +60,18 @@ void Simulation::bounce(int index, const Incident& incident, Impact impact) {
   std::vector<Released> released = release_by_speed(moving, body, t, q);
   const RestingTime rest = resting_time(moving, pair, impact, q, !is_hit);
   if (rest.rests) {
-    if (!is_flat_at(obstacle.shape, impact.normal)) {
+    if (!is_flat_at(obstacle.shape, impact.point, impact.normal)) {
       fail(t, "body '" + body.name + "' comes to rest on the curved or sharp part of obstacle '" + obstacle.name +
                   "', where trajet cannot follow it");
       return;
     }
-    if (body.radius > 0.0 && moves_off(obstacle.shape, impact.normal, impact.position, velocity)) {
+    if (bounding_radius(body.solid) > 0.0 &&
+        moves_off(face_outline(obstacle.shape, impact.point, impact.normal), impact.position, velocity)) {
       fail(t, "body '" + body.name + "' slides over an edge of obstacle '" + obstacle.name +
                   "' too slowly to leave it, where trajet cannot follow it");
       return;
     }
-    moving.begin_rest(incident.index, impact.normal);
+    moving.begin_rest(incident.index, impact.normal, impact.point);
     for (const Vector3& direction : moving.support(body.offset).blocked)
       velocity -= velocity.dot(direction) * direction;
     coming_rests_.push_back({t + rest.duration, &moving, incident.index, impact.time_error_bound});
@@ -175,7 +168,7 @@ Simulation::Released Simulation::release(Motion& moving, int resting, double t, 
   memory.contact_time = t;
   // what the body has drifted off the surface while it rested is still contact
   const Vector3 position = q.segment<3>(contact.offset);
-  const Vector3 point = position - body_of(pair).radius * contact.normal;
+  const Vector3 point = position - bounding_radius(body_of(pair).solid) * contact.normal;
   const Vector3 surface =
       std::visit([&](const auto& shape) { return closest_point(shape, position); }, obstacle_of(pair).shape);
   memory.tolerance = std::max(memory.tolerance, 2.0 * (surface - point).norm());
@@ -215,7 +208,7 @@ Impact Simulation::steady_contact(const Motion& moving, const RestingContact& co
   impact.kind = kind;
   impact.normal = contact.normal;
   impact.position = q.segment<3>(contact.offset);
-  impact.point = impact.position - body_of(pair).radius * contact.normal;
+  impact.point = impact.position - bounding_radius(body_of(pair).solid) * contact.normal;
   impact.velocity_before = impact.velocity_after = q.segment<3>(contact.offset + 3);
   impact.angular_velocity_before = impact.angular_velocity_after = angular_velocity(body_of(pair), q);
   impact.impulse = Vector3::Zero();
@@ -227,25 +220,27 @@ std::optional<Simulation::Released> Simulation::rest_on_continuation(Motion& mov
   const World::Body& body = body_of(moving.pair(contact.pair));
   const Vector3 position = q.segment<3>(contact.offset);
   const Vector3 velocity = q.segment<3>(contact.offset + 3);
-  const Vector3 foot = position - body.radius * contact.normal;
-  const double size = position.norm() + body.radius;
+  const double radius = bounding_radius(body.solid);
+  const Vector3 foot = position - radius * contact.normal;
+  const double size = position.norm() + radius;
   const auto continues = [&](const Motion::Pair& pair) {
     const World::Obstacle& obstacle = obstacle_of(pair);
     if (&body_of(pair) != &body || pair.resting || obstacle.on_hit != OnHit::bounce) return false;
-    if (!is_flat_at(obstacle.shape, contact.normal)) return false;
+    if (!is_flat_at(obstacle.shape, foot, contact.normal)) return false;
     const Vector3 above = foot + size * contact.normal;
     const Vector3 surface = std::visit([&](const auto& shape) { return closest_point(shape, above); }, obstacle.shape);
     constexpr double kRounding = 1e-12;  // a step this high, of the place and the size, is none
     return (surface - foot).norm() <= kRounding * size &&
-           !moves_off(obstacle.shape, contact.normal, position, velocity);
+           !moves_off(face_outline(obstacle.shape, foot, contact.normal), position, velocity);
   };
   const auto found = std::ranges::find_if(moving.pairs(), continues);
   if (found == moving.pairs().end()) return std::nullopt;
   RestingContact next = contact;
   next.pair = static_cast<int>(found - moving.pairs().begin());
+  next.point = foot;
   record(steady_contact(moving, next, ImpactKind::rest, t, q));
-  moving.begin_rest(next.pair, next.normal);
-  const bool is_behind = body.radius == 0.0 && looks_down(obstacle_of(*found).shape, contact.normal);
+  moving.begin_rest(next.pair, next.normal, next.point);
+  const bool is_behind = radius == 0.0 && looks_down(obstacle_of(*found).shape, contact.normal);
   return Released{next.pair, {is_behind ? -1 : 1, t}};
 }
 
@@ -259,9 +254,9 @@ void Simulation::handle_leave(int index, const Incident& incident) {
   record_leave(moving, contact, incident.time, q);
   std::vector<Released> released = {release(moving, incident.index, incident.time, q)};
   if (incident.kind == Incident::Kind::past_edge) {
-    const bool is_thin = !std::holds_alternative<Box>(obstacle_of(moving.pair(contact.pair)).shape);
     // beside a thin surface a point takes the side to which it falls: it does not go through
-    if (is_thin && body.radius == 0.0) released.front().memory.side = 0;
+    if (is_thin(obstacle_of(moving.pair(contact.pair)).shape) && bounding_radius(body.solid) == 0.0)
+      released.front().memory.side = 0;
     if (const std::optional<Released> next = rest_on_continuation(moving, contact, incident.time, q))
       released.push_back(*next);
   }

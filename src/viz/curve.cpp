@@ -36,8 +36,11 @@ std::vector<Drawn> drawn_components(const World& world, int group) {
   std::vector<Drawn> drawn;
   for (const World::Body& body : world.bodies) {
     if (body.group != group) continue;
-    drawn.insert(drawn.end(), {{body.offset, 3, false}, {body.offset + 3, 3, false}, {body.offset + 3, 3, true}});
-    if (body.rotation) drawn.push_back({body.rotation->offset + body.rotation->layout.size(), 3, false});
+    const BodySlice slice = body.slice();
+    drawn.insert(
+        drawn.end(),
+        {{slice.position_index(), 3, false}, {slice.velocity_index(), 3, false}, {slice.velocity_index(), 3, true}});
+    if (body.rotation) drawn.push_back({slice.angular_velocity_index(), 3, false});
   }
   for (const World::ExtraState& state : world.states)
     if (state.group == group) drawn.push_back({state.offset, 1, false});

@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::size_t kMostMotions = 6;
 
-Vector3 position(const std::vector<double>& state, int offset) { return Vector3::Map(state.data() + offset); }
+Vector3 position(const std::vector<double>& state, int first) { return Vector3::Map(state.data() + first); }
 
 }  // namespace
 
@@ -69,7 +69,8 @@ void MotionsPanel::choose_components() {
     owners_.push_back({body.group, body.offset, b});
     for (int i = 0; i < 3; ++i) {
       Range range;
-      for (const auto& state : reference_states(body.group).values) range.include(position(state, body.offset)[i]);
+      for (const auto& state : reference_states(body.group).values)
+        range.include(position(state, body.slice().position_index())[i]);
       moves[static_cast<std::size_t>(i)] |= range.extent() > 0.0;
     }
   }
@@ -151,7 +152,8 @@ std::string MotionsPanel::space_script(const Frame& frame, const FigureSize& siz
     const Look shown = look(body);
     const bool is_solid = std::ranges::find(solids_, b) != solids_.end();
     std::vector<Vector3> points;
-    for (const auto& state : reference_states(body.group).values) points.push_back(position(state, body.offset));
+    for (const auto& state : reference_states(body.group).values)
+      points.push_back(position(state, body.slice().position_index()));
     // the reference lies beneath
     panel.add_path(std::move(points), fmt::format("lines lw 4 lc '{}'", color_text(kReferenceColor)),
                    b == 0 ? comparison_.reference_name : "");
@@ -160,7 +162,7 @@ std::string MotionsPanel::space_script(const Frame& frame, const FigureSize& siz
     for (const std::size_t r : rows_) {
       const Curve& curve = motions_[r].curves[static_cast<std::size_t>(body.group)];
       std::vector<Vector3> way;
-      for (const auto& state : curve.states) way.push_back(position(state, body.offset));
+      for (const auto& state : curve.states) way.push_back(position(state, body.slice().position_index()));
       panel.add_path(std::move(way), line_style(r), b == 0 ? title(comparison_.rows[r]) : "");
       if (is_solid)
         for (const Pose& pose : motions_[r].poses[b]) panel.add_body(shown, pose, style(comparison_.rows[r]).color);

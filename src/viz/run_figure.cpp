@@ -39,16 +39,17 @@ std::vector<Quantity> quantities_of(const World::Body& body, const Curve& curve)
     });
   };
   std::vector<Quantity> quantities;
-  const bool only_turns =
-      body.rotation && is_zero(body.offset, 6, curve.states) && is_zero(body.offset, 6, curve.rates);
+  const BodySlice slice = body.slice();
+  const bool only_turns = body.rotation && is_zero(slice.first, BodySlice::kMovingSize, curve.states) &&
+                          is_zero(slice.first, BodySlice::kMovingSize, curve.rates);
   if (!only_turns)
-    quantities = {{"position [m]", "#0050c8", false, body.offset},
-                  {"velocity [m/s]", "#008a20", false, body.offset + 3},
-                  {"acceleration [m/s²]", "#d01010", true, body.offset + 3}};
+    quantities = {{"position [m]", "#0050c8", false, slice.position_index()},
+                  {"velocity [m/s]", "#008a20", false, slice.velocity_index()},
+                  {"acceleration [m/s²]", "#d01010", true, slice.velocity_index()}};
   if (body.rotation) {
     const bool is_in_world = body.rotation->layout.frame == Frame::world;
     quantities.push_back({is_in_world ? "ω, world [rad/s]" : "ω, body's frame [rad/s]", "#b06000", false,
-                          body.rotation->offset + body.rotation->layout.size()});
+                          slice.angular_velocity_index()});
   }
   return quantities;
 }
