@@ -5,7 +5,7 @@
 #include <memory>
 #include <numbers>
 
-#include "trajet/collide/detect/table.hpp"
+#include "trajet/collide/detect/contact_table.hpp"
 #include "trajet/ode/solve.hpp"
 #include "work_precision.hpp"
 

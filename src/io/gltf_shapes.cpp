@@ -95,7 +95,7 @@ GltfMesh rod_mesh(const Vector3& end, double radius) {
 
 /// How far a body with its named points reaches from its origin.
 double reach(const World::Body& body) {
-  double farthest = body.radius;
+  double farthest = bounding_radius(body.solid);
   for (const World::Point& point : body.points) farthest = std::max(farthest, point.p_B.norm());
   return farthest;
 }
@@ -171,17 +171,19 @@ GltfMesh mesh_of(const Box& box, const Extent&) {
 
 GltfMesh body_mesh(const World::Body& body, const Extent& extent) {
   GltfMesh mesh;
-  for (const auto& triangle : body.surface.triangles) {
+  const auto* soccer_ball = std::get_if<SoccerBall>(&body.solid);
+  const TriangleMesh surface = picture_mesh(body.solid);
+  for (const auto& triangle : surface.triangles) {
     Vector3 corners[3];
-    for (std::size_t i = 0; i < 3; ++i) corners[i] = body.surface.vertices[static_cast<std::size_t>(triangle[i])];
+    for (std::size_t i = 0; i < 3; ++i) corners[i] = surface.vertices[static_cast<std::size_t>(triangle[i])];
     const Vector3 normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]).normalized();
     Tint tint = Tint::own;
-    if (body.shape == "soccer-ball")
-      tint = normal.dot(corners[0]) > kPentagonDistance * body.radius ? Tint::dark : Tint::light;
+    if (soccer_ball != nullptr)
+      tint = normal.dot(corners[0]) > kPentagonDistance * soccer_ball->radius ? Tint::dark : Tint::light;
     add_polygon(mesh, corners, normal, tint);
   }
   if (!mesh.positions.empty()) return mesh;
-  if (body.radius > 0.0) return ball_mesh(body.radius, body.rotation.has_value());
+  if (bounding_radius(body.solid) > 0.0) return ball_mesh(bounding_radius(body.solid), body.rotation.has_value());
   const double size = reach(body);
   if (size == 0.0) return ball_mesh(extent.point_radius, false);
   mesh = ball_mesh(kRodRadius * size, false);
@@ -215,7 +217,7 @@ Extent extent(const MotionRecord& motion) {
       constexpr int kParts = 8;
       for (int i = 0; i <= kParts; ++i) {
         const double t = piece.from + (piece.to - piece.from) * i / kParts;
-        const auto at = [&](int axis) { return piece.segment.value(body.offset + axis, t); };
+        const auto at = [&](int axis) { return piece.segment.value(body.slice().position_index() + axis, t); };
         extend({at(0), at(1), at(2)}, reach(body));
       }
     }

@@ -9,9 +9,9 @@ namespace {
 
 using Keys = std::vector<std::string_view>;
 
-BodyShape read_hull(const TableReader& table) { return HullShape{table.vector_list("points", kLength)}; }
+ShapeDefinition read_hull(const TableReader& table) { return HullShape{table.vector_list("points", kLength)}; }
 
-BodyShape read_mesh_shape(const TableReader& table) {
+ShapeDefinition read_mesh_shape(const TableReader& table) {
   MeshShape shape{read_mesh(table)};
   if (table.has("scale")) shape.scale = table.scalar("scale", kDimensionless);
   return shape;
@@ -21,25 +21,27 @@ BodyShape read_mesh_shape(const TableReader& table) {
 struct BodyKind {
   std::string_view name;
   Keys keys;
-  BodyShape (*read)(const TableReader&);
+  ShapeDefinition (*read)(const TableReader&);
 };
 
 const std::array<BodyKind, 8>& body_kinds() {
   using Table = const TableReader&;
   static const std::array<BodyKind, 8> kinds{{
-      {"point", {}, [](Table) { return BodyShape(PointShape{}); }},
-      {"sphere", {"radius"}, [](Table t) { return BodyShape(BallShape{t.scalar("radius", kLength)}); }},
-      {"box", {"size"}, [](Table t) { return BodyShape(CuboidShape{t.vector("size", kLength)}); }},
-      {"soccer-ball", {"radius"}, [](Table t) { return BodyShape(SoccerBallShape{t.scalar("radius", kLength)}); }},
+      {"point", {}, [](Table) { return ShapeDefinition(PointShape{}); }},
+      {"sphere", {"radius"}, [](Table t) { return ShapeDefinition(BallShape{t.scalar("radius", kLength)}); }},
+      {"box", {"size"}, [](Table t) { return ShapeDefinition(CuboidShape{t.vector("size", kLength)}); }},
+      {"soccer-ball",
+       {"radius"},
+       [](Table t) { return ShapeDefinition(SoccerBallShape{t.scalar("radius", kLength)}); }},
       {"cylinder",
        {"radius", "height"},
        [](Table t) {
-         return BodyShape(CylinderShape{t.scalar("radius", kLength), t.scalar("height", kLength)});
+         return ShapeDefinition(CylinderShape{t.scalar("radius", kLength), t.scalar("height", kLength)});
        }},
       {"capsule",
        {"radius", "height"},
        [](Table t) {
-         return BodyShape(CapsuleShape{t.scalar("radius", kLength), t.scalar("height", kLength)});
+         return ShapeDefinition(CapsuleShape{t.scalar("radius", kLength), t.scalar("height", kLength)});
        }},
       {"hull", {}, read_hull},  // its `points` are the corners
       {"mesh", {"file", "scale"}, read_mesh_shape},

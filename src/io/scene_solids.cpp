@@ -42,52 +42,42 @@ Keys operator+(Keys a, const Keys& b) {
   return a;
 }
 
-PlaneDefinition read_plane(const TableReader& table) {
-  return {table.vector("point", kLength), table.vector("normal", kDimensionless)};
+ShapeDefinition read_plane(const TableReader& table) { return PlaneShape{table.vector("normal", kDimensionless)}; }
+
+ShapeDefinition read_disk(const TableReader& table) {
+  return DiskShape{table.vector("normal", kDimensionless), table.scalar("radius", kLength)};
 }
 
-DiskDefinition read_disk(const TableReader& table) {
-  return {table.vector("center", kLength), table.vector("normal", kDimensionless), table.scalar("radius", kLength)};
-}
-
-RectangleDefinition read_rectangle(const TableReader& table) {
+ShapeDefinition read_rectangle(const TableReader& table) {
   const std::vector<Expression> size = table.scalars("size", 2, kLength);
-  return {table.vector("center", kLength), table.vector("normal", kDimensionless), table.vector("up", kDimensionless),
-          size[0], size[1]};
+  return RectangleShape{table.vector("normal", kDimensionless), table.vector("up", kDimensionless), size[0], size[1]};
 }
 
-TriangleDefinition read_triangle(const TableReader& table) {
+ShapeDefinition read_triangle(const TableReader& table) {
   const std::vector<Expression> points = table.vectors("points", 3, kLength);
-  return {points[0], points[1], points[2]};
+  return TriangleShape{points[0], points[1], points[2]};
 }
 
-SphereDefinition read_sphere(const TableReader& table) {
-  return {table.vector("center", kLength), table.scalar("radius", kLength)};
-}
+ShapeDefinition read_ball(const TableReader& table) { return BallShape{table.scalar("radius", kLength)}; }
 
-BoxDefinition read_box(const TableReader& table) {
-  BoxDefinition box{table.vector("center", kLength), table.vector("size", kLength)};
-  if (table.has("orientation")) box.orientation = read_orientation(table.subtable("orientation"));
-  return box;
-}
+ShapeDefinition read_cuboid(const TableReader& table) { return CuboidShape{table.vector("size", kLength)}; }
 
 /// Shapes of obstacles: one row each.
 struct ObstacleKind {
   std::string_view name;
-  Keys keys;
-  ObstacleShape (*read)(const TableReader&);
+  std::string_view center;  ///< the key that says where it is; none: its own keys say so
+  Keys keys;                ///< that describe it, without `center`
+  ShapeDefinition (*read)(const TableReader&);
 };
 
 const std::array<ObstacleKind, 6>& obstacle_kinds() {
   static const std::array<ObstacleKind, 6> kinds{{
-      {"plane", {"point", "normal"}, [](const TableReader& t) { return ObstacleShape(read_plane(t)); }},
-      {"disk", {"center", "normal", "radius"}, [](const TableReader& t) { return ObstacleShape(read_disk(t)); }},
-      {"rectangle",
-       {"center", "normal", "up", "size"},
-       [](const TableReader& t) { return ObstacleShape(read_rectangle(t)); }},
-      {"triangle", {"points"}, [](const TableReader& t) { return ObstacleShape(read_triangle(t)); }},
-      {"sphere", {"center", "radius"}, [](const TableReader& t) { return ObstacleShape(read_sphere(t)); }},
-      {"box", {"center", "size", "orientation"}, [](const TableReader& t) { return ObstacleShape(read_box(t)); }},
+      {"plane", "point", {"normal"}, read_plane},
+      {"disk", "center", {"normal", "radius"}, read_disk},
+      {"rectangle", "center", {"normal", "up", "size"}, read_rectangle},
+      {"triangle", "", {"points"}, read_triangle},
+      {"sphere", "center", {"radius"}, read_ball},
+      {"box", "center", {"size", "orientation"}, read_cuboid},
   }};
   return kinds;
 }
@@ -105,12 +95,16 @@ ObstacleDefinition read_obstacle(const TableReader& table) {
   Keys planned = {"friction", "velocity", "angular_velocity", "file", "scale"};
   const std::string with_shape = table.title() + " of shape " + std::string(kind.name);
   TableReader titled = table.titled(with_shape);
-  titled.check_keys(common + kind.keys, planned);
+  const bool has_center = !kind.center.empty();
+  titled.check_keys(common + (has_center ? Keys{kind.center} : Keys{}) + kind.keys, planned);
 
   constexpr std::array<std::string_view, 3> kOnHit{"stop", "bounce", "pass"};
   constexpr std::array<std::string_view, 1> kPlannedOnHit{"stick"};
-  ObstacleDefinition obstacle{table.text("name"), kind.read(titled)};
+  ObstacleDefinition obstacle{.name = table.text("name"), .shape = PointShape{}};
   obstacle.where = table.where("name");
+  if (has_center) obstacle.center = titled.vector(kind.center, kLength);
+  obstacle.shape = kind.read(titled);
+  if (titled.has("orientation")) obstacle.orientation = read_orientation(titled.subtable("orientation"));
   obstacle.on_hit =
       std::array{OnHit::stop, OnHit::bounce, OnHit::pass}[table.choice("on_hit", kOnHit, 0, kPlannedOnHit)];
   if (table.has("restitution")) obstacle.restitution = table.scalar("restitution", kDimensionless);

@@ -1,12 +1,8 @@
 #include "body_maker.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <numbers>
-#include <stdexcept>
-#include <utility>
-#include <vector>
 
+#include "solid_maker.hpp"
 #include "trajet/geom/mass_properties.hpp"
 #include "trajet/rigid/principal_axes.hpp"
 
@@ -14,111 +10,6 @@ namespace trajet {
 namespace {
 
 std::string of_body(const BodyDefinition& body) { return " of body '" + body.name + "'"; }
-
-/// A shape with its numbers, centre of mass at the origin.
-struct Solid {
-  std::string_view name;
-  double radius = 0.0;  // m, around the centre of mass
-  bool is_ball = true;
-  TriangleMesh surface{};
-  std::optional<VolumeProperties> properties{};
-};
-
-/// What is wrong with a shape as a whole is reported where its body stands.
-class SolidMaker {
- public:
-  SolidMaker(const SceneNumbers& numbers, std::string of) : numbers_(numbers), of_(std::move(of)) {}
-
-  Solid operator()(const PointShape&) const { return {"point"}; }
-  Solid operator()(const BallShape& ball) const {
-    const double radius = positive(ball.radius, "radius");
-    return {"sphere", radius, true, {}, sphere_properties(radius)};
-  }
-  Solid operator()(const CuboidShape& box) const {
-    const Vector3 size = numbers_.vector(box.size, "size" + of_);
-    if (!(size.minCoeff() > 0.0)) throw InputError(box.size.where(), "size" + of_ + " must be positive");
-    std::vector<Vector3> corners;
-    for (int i = 0; i < 8; ++i)
-      corners.push_back(0.5 * size.cwiseProduct(Vector3(i & 1 ? 1.0 : -1.0, i & 2 ? 1.0 : -1.0, i & 4 ? 1.0 : -1.0)));
-    return {"box", 0.5 * size.norm(), false, convex_hull(corners), box_properties(size)};
-  }
-  Solid operator()(const CylinderShape& cylinder) const {
-    const double radius = positive(cylinder.radius, "radius"), height = positive(cylinder.height, "height");
-    const TriangleMesh surface = turned({{radius, -0.5 * height}, {radius, 0.5 * height}});
-    return {"cylinder", std::hypot(radius, 0.5 * height), false, surface, cylinder_properties(radius, height)};
-  }
-  Solid operator()(const CapsuleShape& capsule) const {
-    const double radius = positive(capsule.radius, "radius"), height = positive(capsule.height, "height");
-    constexpr int kRings = 6;  // of a half sphere, without its pole
-    std::vector<std::pair<double, double>> profile;
-    for (int i = 0; i <= kRings; ++i) {
-      const double angle = 0.5 * std::numbers::pi * i / kRings;
-      const double r = i == kRings ? 0.0 : radius * std::cos(angle), z = 0.5 * height + radius * std::sin(angle);
-      profile.insert(profile.end(), {{r, z}, {r, -z}});
-    }
-    return {"capsule", radius + 0.5 * height, false, turned(profile), capsule_properties(radius, height)};
-  }
-  Solid operator()(const SoccerBallShape& ball) const {
-    const double radius = positive(ball.radius, "radius");
-    Solid solid{"soccer-ball", radius, false, convex_hull(truncated_icosahedron(radius))};
-    VolumeProperties properties = mesh_properties(solid.surface);
-    // by its symmetry every axis is a principal one: say so to the last bit
-    properties.inertia = properties.inertia.trace() / 3.0 * Matrix3::Identity();
-    solid.properties = properties;
-    return solid;
-  }
-  Solid operator()(const HullShape& hull) const {
-    std::vector<Vector3> points;
-    for (const Expression& point : hull.points) points.push_back(numbers_.vector(point, "point" + of_));
-    return centered("hull", convex_hull(points));
-  }
-  Solid operator()(const MeshShape& mesh) const {
-    const double scale = positive(mesh.scale, "scale");
-    TriangleMesh surface = closed_mesh(mesh.mesh);
-    for (Vector3& vertex : surface.vertices) vertex *= scale;
-    return centered("mesh", std::move(surface));
-  }
-
- private:
-  /// The hull of rings about z: distance from the axis and height of each.
-  static TriangleMesh turned(const std::vector<std::pair<double, double>>& rings) {
-    constexpr int kSides = 32;
-    std::vector<Vector3> points;
-    for (const auto& [r, z] : rings)
-      for (int i = 0; i < (r > 0.0 ? kSides : 1); ++i) {
-        const double angle = 2.0 * std::numbers::pi * i / kSides;
-        points.emplace_back(r * std::cos(angle), r * std::sin(angle), z);
-      }
-    try {
-      return convex_hull(points);
-    } catch (const std::domain_error&) {  // too flat for a picture, which is no reason to refuse it
-      return {};
-    }
-  }
-
-  static Solid centered(std::string_view name, TriangleMesh surface) {
-    const VolumeProperties properties = mesh_properties(surface);
-    double radius = 0.0;
-    for (Vector3& vertex : surface.vertices) {
-      vertex -= properties.center;
-      radius = std::max(radius, vertex.norm());
-    }
-    return {name, radius, false, std::move(surface), properties};
-  }
-
-  double positive(const Expression& value, const char* key) const { return numbers_.positive(value, key + of_); }
-
-  const SceneNumbers& numbers_;
-  std::string of_;
-};
-
-Solid make_solid(const BodyDefinition& definition, const SceneNumbers& numbers) {
-  try {
-    return std::visit(SolidMaker(numbers, of_body(definition)), definition.shape);
-  } catch (const std::domain_error& error) {
-    throw InputError(definition.where, "body '" + definition.name + "': " + error.what());
-  }
-}
 
 bool has_inertia(const BodyDefinition& definition) {
   return definition.principal_inertia || !definition.inertia.empty();
@@ -148,12 +39,13 @@ Matrix3 given_inertia(const BodyDefinition& definition, const SceneNumbers& numb
 /// The inertia about the centre of mass, where there is one.
 std::optional<Matrix3> inertia(const BodyDefinition& definition, const Solid& solid, const SceneNumbers& numbers) {
   if (has_inertia(definition)) return given_inertia(definition, numbers);
-  if (!solid.properties) return std::nullopt;
+  const std::optional<VolumeProperties> properties = volume_properties(solid);
+  if (!properties) return std::nullopt;
   if (definition.density)
-    return numbers.positive(*definition.density, "density" + of_body(definition)) * solid.properties->inertia;
+    return numbers.positive(*definition.density, "density" + of_body(definition)) * properties->inertia;
   if (!definition.mass) return std::nullopt;
   const double mass = numbers.positive(*definition.mass, "mass" + of_body(definition));
-  return mass / solid.properties->volume * solid.properties->inertia;
+  return mass / properties->volume * properties->inertia;
 }
 
 void require_no_conflict(const BodyDefinition& definition) {
@@ -209,16 +101,12 @@ std::optional<World::Rotation> rotation(const BodyDefinition& d, const Solid& so
 World::Body make_body(const BodyDefinition& definition, const SceneNumbers& numbers, const MethodOptions& method) {
   require_no_conflict(definition);
   if (has_inertia(definition)) given_inertia(definition, numbers);  // an error where it is none, even if nothing turns
-  Solid solid = make_solid(definition, numbers);
   World::Body body;
   body.name = definition.name;
   body.where = definition.where;
-  body.shape = solid.name;
-  body.radius = solid.radius;
-  body.is_ball = solid.is_ball;
-  body.surface = std::move(solid.surface);
+  body.solid = make_solid(definition, numbers);
   body.q_WB = numbers.orientation(definition.orientation, "orientation" + of_body(definition));
-  body.rotation = rotation(definition, solid, numbers, method);
+  body.rotation = rotation(definition, body.solid, numbers, method);
   for (const NamedExpression& point : definition.points)
     body.points.push_back(
         {point.name, numbers.vector(point.value, "point '" + point.name + "'" + of_body(definition))});
@@ -227,27 +115,27 @@ World::Body make_body(const BodyDefinition& definition, const SceneNumbers& numb
 
 std::optional<double> mass_from_density(const BodyDefinition& definition, const SceneNumbers& numbers) {
   if (!definition.density) return std::nullopt;
-  const Solid solid = make_solid(definition, numbers);
-  if (!solid.properties)
+  const std::optional<VolumeProperties> properties = volume_properties(make_solid(definition, numbers));
+  if (!properties)
     throw InputError(definition.density->where(), "a point has no volume: give `mass` instead of `density`");
-  return numbers.positive(*definition.density, "density" + of_body(definition)) * solid.properties->volume;
+  return numbers.positive(*definition.density, "density" + of_body(definition)) * properties->volume;
 }
 
 Eigen::VectorXd start_state(const BodyDefinition& definition, const World::Body& body, const SceneNumbers& numbers) {
-  const int rotation_size = body.rotation ? body.rotation->layout.size() + 3 : 0;
-  Eigen::VectorXd state(6 + rotation_size);
-  state.head<3>() = numbers.vector(definition.position, "position" + of_body(definition));
-  state.segment<3>(3) = numbers.vector(definition.velocity, "velocity" + of_body(definition));
+  const BodySlice slice{0, body.rotation ? std::optional(body.rotation->layout) : std::nullopt};
+  Eigen::VectorXd state(slice.size());
+  slice.position(state) = numbers.vector(definition.position, "position" + of_body(definition));
+  slice.velocity(state) = numbers.vector(definition.velocity, "velocity" + of_body(definition));
   if (!body.rotation) return state;
 
-  body.rotation->layout.put(body.q_WB, state.data() + 6);
+  body.rotation->layout.put(body.q_WB, slice.orientation(state));
   Vector3 w = Vector3::Zero();
   const bool is_in_body = definition.angular_velocity_body.has_value();
   const auto& given = is_in_body ? definition.angular_velocity_body : definition.angular_velocity;
   if (given) w = numbers.vector(*given, "angular velocity" + of_body(definition));
   if (is_in_body && body.rotation->layout.frame == Frame::world) w = rotate<double>(body.q_WB, w);
   if (!is_in_body && body.rotation->layout.frame == Frame::body) w = rotate<double>(body.q_WB.conjugate(), w);
-  state.tail<3>() = w;
+  slice.angular_velocity(state) = w;
   return state;
 }
 

@@ -47,7 +47,7 @@ ComponentOrigin origin(const Scene& scene, const World& world, int group, int co
   const auto body = std::find_if(world.bodies.rbegin(), world.bodies.rend(), begins_before);
   const BodyDefinition& definition = scene.bodies[static_cast<std::size_t>(world.bodies.rend() - body) - 1];
   const std::string of_body = " of body '" + body->name + "'";
-  if (component < body->offset + 3)
+  if (component < body->slice().velocity_index())
     return {"rate of the position" + of_body,
             definition.position_rate ? definition.position_rate->where() : definition.where};
   if (body->rotation && component >= body->rotation->offset) {

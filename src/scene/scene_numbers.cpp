@@ -1,56 +1,12 @@
 #include "scene_numbers.hpp"
 
 #include <cmath>
-#include <stdexcept>
 
 #include "trajet/law/program_builder.hpp"
 #include "trajet/math/quaternion.hpp"
 #include "trajet/text/shortest_text.hpp"
 
 namespace trajet {
-namespace {
-
-/// What is wrong with a shape as a whole is reported where its obstacle stands.
-class ShapeMaker {
- public:
-  ShapeMaker(const SceneNumbers& numbers, const std::string& of) : numbers_(numbers), of_(of) {}
-
-  Shape operator()(const PlaneDefinition& plane) const {
-    return make_plane(vector(plane.point, "point"), direction(plane.normal, "normal"));
-  }
-  Shape operator()(const DiskDefinition& disk) const {
-    return make_disk(vector(disk.center, "center"), direction(disk.normal, "normal"), positive(disk.radius, "radius"));
-  }
-  Shape operator()(const RectangleDefinition& rectangle) const {
-    return make_rectangle(vector(rectangle.center, "center"), direction(rectangle.normal, "normal"),
-                          direction(rectangle.up, "up"), positive(rectangle.width, "size"),
-                          positive(rectangle.height, "size"));
-  }
-  Shape operator()(const TriangleDefinition& triangle) const {
-    return make_triangle(vector(triangle.a, "corner"), vector(triangle.b, "corner"), vector(triangle.c, "corner"));
-  }
-  Shape operator()(const SphereDefinition& sphere) const {
-    return make_sphere(vector(sphere.center, "center"), positive(sphere.radius, "radius"));
-  }
-  Shape operator()(const BoxDefinition& box) const {
-    return make_box(vector(box.center, "center"), vector(box.size, "size"),
-                    rotation_matrix(numbers_.orientation(box.orientation, "orientation" + of_)));
-  }
-
- private:
-  Vector3 vector(const Expression& value, const char* key) const { return numbers_.vector(value, key + of_); }
-  Vector3 direction(const Expression& value, const char* key) const {
-    const Vector3 numbers = vector(value, key);
-    if (numbers.isZero(0.0)) throw InputError(value.where(), key + of_ + " must not be zero");
-    return numbers;
-  }
-  double positive(const Expression& value, const char* key) const { return numbers_.positive(value, key + of_); }
-
-  const SceneNumbers& numbers_;
-  std::string of_;
-};
-
-}  // namespace
 
 double SceneNumbers::scalar(const Expression& value, const std::string& what) const {
   const double number = evaluate_scalar(value, constants_);
@@ -111,14 +67,6 @@ Quaternion SceneNumbers::orientation(const OrientationDefinition& orientation, c
     throw InputError(orientation.where,
                      what + " is incomplete: an axis and an angle, four numbers, or three rows expected");
   return Quaternion::Identity();
-}
-
-Shape SceneNumbers::shape(const ObstacleDefinition& obstacle) const {
-  try {
-    return std::visit(ShapeMaker(*this, " of obstacle '" + obstacle.name + "'"), obstacle.shape);
-  } catch (const std::domain_error& error) {
-    throw InputError(obstacle.where, "obstacle '" + obstacle.name + "': " + error.what());
-  }
 }
 
 }  // namespace trajet

@@ -2,7 +2,6 @@
 
 #include <string>
 
-#include "trajet/geom/shapes.hpp"
 #include "trajet/law/symbols.hpp"
 #include "trajet/scene/scene.hpp"
 
@@ -22,7 +21,6 @@ class SceneNumbers {
   Vector3 vector(const Expression& value, const std::string& what) const;
   /// A unit quaternion, w >= 0 where it was a matrix. Throws InputError if a matrix is no rotation.
   Quaternion orientation(const OrientationDefinition& orientation, const std::string& what) const;
-  Shape shape(const ObstacleDefinition& obstacle) const;
 
  private:
   const Symbols& constants_;

@@ -25,11 +25,13 @@ double gap(const Shape& shape, const Vector3& p) {
 void check_starts(const World& world) {
   constexpr double kRounding = 1e-9;  // of the lengths that the gap is made of, and far above what they round to
   for (const World::Body& body : world.bodies) {
-    if (!body.is_ball) continue;
-    const Vector3 position = world.groups[static_cast<std::size_t>(body.group)].start.segment<3>(body.offset);
-    const double open = kRounding * (position.norm() + body.radius);
+    if (!is_round(body.solid)) continue;
+    const Eigen::VectorXd& start = world.groups[static_cast<std::size_t>(body.group)].start;
+    const Vector3 position = body.slice().position(start);
+    const double radius = bounding_radius(body.solid);
+    const double open = kRounding * (position.norm() + radius);
     for (const World::Obstacle& obstacle : world.obstacles)
-      if (gap(obstacle.shape, position) - body.radius < -open)
+      if (gap(obstacle.shape, position) - radius < -open)
         throw InputError(body.where, "body '" + body.name + "' starts inside obstacle '" + obstacle.name + "'");
   }
 }

@@ -13,6 +13,7 @@
 #include "scene_method.hpp"
 #include "scene_numbers.hpp"
 #include "scene_symbols.hpp"
+#include "solid_maker.hpp"
 #include "start_check.hpp"
 #include "trajet/law/evaluate.hpp"
 #include "trajet/law/program_builder.hpp"
@@ -39,9 +40,12 @@ class WorldBuilder {
     check_names();
     set_time();
     set_method(scene_.method, numbers_, world_);
-    for (const ObstacleDefinition& obstacle : scene_.obstacles)
-      world_.obstacles.push_back(
-          {obstacle.name, numbers_.shape(obstacle), obstacle.on_hit, restitution_of(obstacle), obstacle.color});
+    world_.obstacles.reserve(scene_.obstacles.size());
+    for (const ObstacleDefinition& obstacle : scene_.obstacles) {
+      world_.obstacles.push_back(make_obstacle(obstacle, numbers_));
+      world_.obstacles.back().restitution = restitution_of(obstacle);
+      world_.obstacles.back().color = obstacle.color;
+    }
     find_dependencies();
     place_in_groups();
     for (std::size_t g = 0; g < world_.groups.size(); ++g) compile_group(static_cast<int>(g));
@@ -169,7 +173,7 @@ class WorldBuilder {
       body.color = definition.color;
       body.group = group_of(static_cast<int>(i));
       body.offset = append(group(body.group).start, start_state(definition, body, numbers_));
-      if (body.rotation) body.rotation->offset = body.offset + 6;
+      if (body.rotation) body.rotation->offset = body.slice().orientation_index();
       group(body.group).bodies.push_back(static_cast<int>(i));
       world_.bodies.push_back(std::move(body));
     }
@@ -225,11 +229,11 @@ class WorldBuilder {
   void compile_body(int index, const Symbols& group_scope, ProgramBuilder& law) {
     const BodyDefinition& definition = scene_.bodies[static_cast<std::size_t>(index)];
     const World::Body& body = world_.bodies[static_cast<std::size_t>(index)];
-    const int position = 1 + body.offset;
+    const int velocity = 1 + body.slice().velocity_index();
     const Symbols own = own_symbols(group_scope, body, law);
 
     law.add_output(definition.position_rate ? law.compile_vector(*definition.position_rate, own)
-                                            : law.inputs({position + 3, position + 4, position + 5}));
+                                            : law.inputs({velocity, velocity + 1, velocity + 2}));
     if (definition.acceleration && definition.force)
       throw InputError(definition.force->where(), "body '" + body.name + "' has both `acceleration` and `force`");
     if (definition.force && !definition.mass && !definition.density)
@@ -373,8 +377,7 @@ class WorldBuilder {
       for (const World::Body& body : world_.bodies) {
         if (body.name != assignment.name.substr(0, dot)) continue;
         if (part != nullptr) return {body.group, body.offset + part->first, part->size};
-        if (name == "w" && body.rotation)
-          return {body.group, body.rotation->offset + body.rotation->layout.size(), 3, &body};
+        if (name == "w" && body.rotation) return {body.group, body.slice().angular_velocity_index(), 3, &body};
         if (name == "w")
           throw InputError(assignment.where,
                            "body '" + body.name + "' does not turn: give it an `angular_velocity`, which may be 0");

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <variant>
 
-#include "trajet/collide/detect/table.hpp"
+#include "trajet/collide/detect/contact_table.hpp"
 #include "trajet/event/path.hpp"
 
 namespace trajet {
@@ -54,7 +54,7 @@ ContactResult Encounters::first_contact_until(const Pair& pair, const ContactMem
   const World::Body& body = world_.bodies[static_cast<std::size_t>(pair.id.body)];
   const World::Obstacle& obstacle = world_.obstacles[static_cast<std::size_t>(pair.id.obstacle)];
   const PointPath path(course.segment(), body.offset);
-  return first_contact(obstacle.shape, {path, body.radius, from, to, world_.locate}, memory);
+  return first_contact(obstacle.shape, {path, bounding_radius(body.solid), from, to, world_.locate}, memory);
 }
 
 void Encounters::search_whole(Pair& pair, const Course& course) const {
@@ -76,7 +76,8 @@ Aabb Encounters::swept(int body, const Course& course, double from, double to) c
   // far above the rounding of boxes and of the contacts that touch them
   constexpr double kMargin = 1e-9;
   const double size = std::max(box.lower.lpNorm<Eigen::Infinity>(), box.upper.lpNorm<Eigen::Infinity>());
-  return grown(box, moving.radius + kMargin * (moving.radius + size));
+  const double radius = bounding_radius(moving.solid);
+  return grown(box, radius + kMargin * (radius + size));
 }
 
 std::optional<std::vector<int>> Encounters::near(const Aabb& swept) const {

@@ -35,7 +35,8 @@ Impact describe(const World& world, const RestingContact& contact, ImpactKind ki
   impact.time = time;
   impact.kind = kind;
   impact.normal = contact.normal;
-  impact.point = impact.position - world.bodies[static_cast<std::size_t>(contact.body)].radius * contact.normal;
+  impact.point =
+      impact.position - bounding_radius(world.bodies[static_cast<std::size_t>(contact.body)].solid) * contact.normal;
   return impact;
 }
 

@@ -2,8 +2,8 @@
 
 #include <variant>
 
-#include "trajet/collide/sustain/resting_contact.hpp"
 #include "trajet/geom/distance.hpp"
+#include "trajet/geom/flat_faces.hpp"
 #include "trajet/law/program_jacobian.hpp"
 
 namespace trajet {
@@ -15,18 +15,18 @@ Vector3 normal_at(const Shape& shape, const Vector3& position, const Vector3& no
 }
 
 /// The derivative of a shape's normal by the position of the centre of a ball that touches it, 1/m.
-Matrix3 curvature(const Shape& shape, const Vector3& position, const Vector3& normal, double radius) {
-  if (is_flat_at(shape, normal)) return Matrix3::Zero();
-  // A point on the surface itself has no direction to it: one a little above has. Differences over a step of a thousandth
-  // of that height keep half of the digits, and more are not needed of an error.
+Matrix3 curvature(const Shape& shape, const Vector3& point, const Vector3& position, const Vector3& normal,
+                  double radius) {
+  if (is_flat_at(shape, point, normal)) return Matrix3::Zero();
+  // A point on the surface itself has no direction to it: one a little above has. Differences over a step of a
+  // thousandth of that height keep half of the digits, and more are not needed of an error.
   const double height = radius > 0.0 ? radius : 1e-4 * (1.0 + position.norm());
   const Vector3 above = radius > 0.0 ? position : Vector3(position + height * normal);
   const double step = 1e-3 * height;
   Matrix3 result;
   for (int i = 0; i < 3; ++i) {
     const Vector3 shift = step * Vector3::Unit(i);
-    result.col(i) =
-        (normal_at(shape, above + shift, normal) - normal_at(shape, above - shift, normal)) / (2.0 * step);
+    result.col(i) = (normal_at(shape, above + shift, normal) - normal_at(shape, above - shift, normal)) / (2.0 * step);
   }
   return result;
 }
@@ -45,7 +45,8 @@ Eigen::MatrixXd derivative_of_bounce(const World& world, const Pair& pair, const
 
   // v+ = v - (1 + e) (r' . n) n, r' moving as v does
   const double factor = 1.0 + obstacle.restitution;
-  const Matrix3 N = curvature(obstacle.shape, instant.before().segment<3>(body.offset), n, body.radius);
+  const Matrix3 N = curvature(obstacle.shape, pair.contact.point, instant.before().segment<3>(body.offset), n,
+                              bounding_radius(body.solid));
   derivative.block<3, 3>(body.offset + 3, body.offset) = -factor * (n * (approach.transpose() * N) + speed * N);
   derivative.block<3, 3>(body.offset + 3, body.offset + 3) = Matrix3::Identity() - factor * n * n.transpose();
   Eigen::RowVectorXd time = Eigen::RowVectorXd::Zero(rate.size());

@@ -6,18 +6,10 @@
 #include "impact_record.hpp"
 #include "trajet/collide/sustain/rest.hpp"
 #include "trajet/geom/distance.hpp"
+#include "trajet/geom/flat_faces.hpp"
 
 namespace trajet {
 namespace {
-
-/// Whether a point above a face with that normal is behind the shape, where it is thin.
-bool looks_down(const Shape& shape, const Vector3& normal) {
-  const auto looks = [&](const auto& s) {
-    if constexpr (requires { s.normal; }) return s.normal.dot(normal) < 0.0;
-    return false;
-  };
-  return std::visit(looks, shape);
-}
 
 Vector3 closest_point_of(const Shape& shape, const Vector3& p) {
   return std::visit([&](const auto& s) { return closest_point(s, p); }, shape);
@@ -25,9 +17,9 @@ Vector3 closest_point_of(const Shape& shape, const Vector3& p) {
 
 }  // namespace
 
-void LastingContacts::begin(Instant& instant, PairId id, const Vector3& normal, double rest_time,
+void LastingContacts::begin(Instant& instant, PairId id, const Vector3& normal, const Vector3& point, double rest_time,
                             double time_error_bound) {
-  instant.contacts.push_back({id.body, id.obstacle, body(id.body).offset, normal, normal});
+  instant.contacts.push_back({id.body, id.obstacle, body(id.body).offset, normal, point, normal});
   instant.stop_blocked_velocity(body(id.body).offset);
   coming_.insert({rest_time, id, time_error_bound});
 }
@@ -91,7 +83,7 @@ ContactMemory& LastingContacts::release(Instant& instant, int index) {
   memory.contact_time = instant.time();
   // what the body has drifted off the surface while it rested is still contact
   const Vector3 position = instant.q.segment<3>(contact.offset);
-  const Vector3 point = position - body(contact.body).radius * contact.normal;
+  const Vector3 point = position - bounding_radius(body(contact.body).solid) * contact.normal;
   const Vector3 surface = closest_point_of(obstacle(contact.obstacle).shape, position);
   memory.tolerance = std::max(memory.tolerance, 2.0 * (surface - point).norm());
   end(instant, index);
@@ -100,8 +92,7 @@ ContactMemory& LastingContacts::release(Instant& instant, int index) {
 
 void LastingContacts::end(Instant& instant, int index) {
   const auto contact = instant.contacts.begin() + index;
-  std::erase_if(coming_,
-                [&](const Coming& coming) { return coming.id == PairId{contact->body, contact->obstacle}; });
+  std::erase_if(coming_, [&](const Coming& coming) { return coming.id == PairId{contact->body, contact->obstacle}; });
   instant.contacts.erase(contact);
 }
 
@@ -127,24 +118,26 @@ void LastingContacts::rest_on_continuation(Instant& instant, const RestingContac
   const World::Body& moving = body(left.body);
   const Vector3 position = instant.q.segment<3>(left.offset);
   const Vector3 velocity = instant.q.segment<3>(left.offset + 3);
-  const Vector3 foot = position - moving.radius * left.normal;
-  const double size = position.norm() + moving.radius;
+  const double radius = bounding_radius(moving.solid);
+  const Vector3 foot = position - radius * left.normal;
+  const double size = position.norm() + radius;
   const auto continues = [&](const Pair& pair) {
     const World::Obstacle& next = obstacle(pair.id.obstacle);
-    if (pair.is_lasting || next.on_hit != OnHit::bounce || !is_flat_at(next.shape, left.normal)) return false;
+    if (pair.is_lasting || next.on_hit != OnHit::bounce || !is_flat_at(next.shape, foot, left.normal)) return false;
     const Vector3 above = foot + size * left.normal;
     constexpr double kStep = 1e-12;  // a step this high, of the place and the size, is none
     return (closest_point_of(next.shape, above) - foot).norm() <= kStep * size &&
-           !moves_off(next.shape, left.normal, position, velocity);
+           !moves_off(face_outline(next.shape, foot, left.normal), position, velocity);
   };
   const std::vector<Pair>& pairs = encounters_.pairs(left.body);
   const auto found = std::ranges::find_if(pairs, continues);
   if (found == pairs.end()) return;
   RestingContact next = left;
   next.obstacle = found->id.obstacle;
+  next.point = foot;
   record(next, ImpactKind::rest, instant.time(), instant.q);
-  instant.contacts.push_back({next.body, next.obstacle, next.offset, next.normal, next.normal});
-  const bool is_behind = moving.radius == 0.0 && looks_down(obstacle(next.obstacle).shape, left.normal);
+  instant.contacts.push_back({next.body, next.obstacle, next.offset, next.normal, next.point, next.normal});
+  const bool is_behind = radius == 0.0 && looks_down(obstacle(next.obstacle).shape, left.normal);
   instant.memories.emplace_back(found->id, ContactMemory{.side = is_behind ? -1 : 1, .contact_time = instant.time()});
 }
 
@@ -153,9 +146,8 @@ void LastingContacts::leave(Instant& instant, int index, bool is_past_edge) {
   record(contact, ImpactKind::leave, instant.time(), instant.q);
   ContactMemory& memory = release(instant, index);
   if (is_past_edge) {
-    const bool is_thin = !std::holds_alternative<Box>(obstacle(contact.obstacle).shape);
     // beside a thin surface a point takes the side to which it falls: it does not go through
-    if (is_thin && body(contact.body).radius == 0.0) memory.side = 0;
+    if (is_thin(obstacle(contact.obstacle).shape) && bounding_radius(body(contact.body).solid) == 0.0) memory.side = 0;
     rest_on_continuation(instant, contact);
   }
   release_by_force(instant, contact.body);

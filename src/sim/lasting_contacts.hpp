@@ -20,9 +20,10 @@ class LastingContacts {
 
   /// The body stays on the obstacle from the instant on. Its last flights, which nobody can tell from contact, would be
   /// over at `rest_time`: then the rest is reported.
-  void begin(Instant& instant, PairId id, const Vector3& normal, double rest_time, double time_error_bound);
-  /// After an impact that gave a resting body its velocity: ends the contacts from or into which it moves now, and takes
-  /// out of the velocity what the others do not let pass.
+  void begin(Instant& instant, PairId id, const Vector3& normal, const Vector3& point, double rest_time,
+             double time_error_bound);
+  /// After an impact that gave a resting body its velocity: ends the contacts from or into which it moves now, and
+  /// takes out of the velocity what the others do not let pass.
   void release_by_speed(Instant& instant, int body);
   /// Ends the contacts that would have to pull at the body.
   void release_by_force(Instant& instant, int body);
@@ -38,7 +39,8 @@ class LastingContacts {
   ContactMemory& release(Instant& instant, int contact);
   void end(Instant& instant, int contact);
   void record(const RestingContact& contact, ImpactKind kind, double time, const Eigen::VectorXd& q);
-  /// Where a body slides off a face and another one goes on from there without a step, its contact with that one begins.
+  /// Where a body slides off a face and another one goes on from there without a step, its contact with that one
+  /// begins.
   void rest_on_continuation(Instant& instant, const RestingContact& left);
   const World::Body& body(int index) const { return world_.bodies[static_cast<std::size_t>(index)]; }
   const World::Obstacle& obstacle(int index) const { return world_.obstacles[static_cast<std::size_t>(index)]; }

@@ -6,6 +6,7 @@
 #include "ties.hpp"
 #include "trajet/collide/respond/restitution.hpp"
 #include "trajet/collide/sustain/rest.hpp"
+#include "trajet/geom/flat_faces.hpp"
 #include "trajet/law/evaluate.hpp"
 
 namespace trajet {
@@ -32,8 +33,8 @@ void RunLoop::handle_contact(int index, const Pair& met) {
   const World::Obstacle& obstacle = obstacle_of(pair);
   const double time = met.contact.time;
   const std::string names = "'" + body.name + "' with '" + obstacle.name + "'";
-  if (!body.is_ball)
-    return fail(time, "contact unresolved: " + std::string(body.shape) + " '" + body.name + "' comes within " +
+  if (!is_round(body.solid))
+    return fail(time, "contact unresolved: body '" + body.name + "' comes within " +
                           "the reach of its farthest point from obstacle '" + obstacle.name +
                           "'; impacts of solids other than points and spheres are not supported yet");
   if (pair.contact.status == ContactStatus::overlapping_at_start) {
@@ -126,19 +127,19 @@ bool RunLoop::rest(Instant& instant, const Pair& pair, const Impact& impact, boo
   const double pull = -impact.normal.dot(rate.segment<3>(body.offset + 3));
   const bool is_low = is_hidden || is_below_flight(speed, pull, pair.contact.memory.tolerance);
   if (pull <= 0.0 || obstacle.restitution >= 1.0 || !is_low) return true;
-  if (!is_flat_at(obstacle.shape, impact.normal)) {
+  if (!is_flat_at(obstacle.shape, impact.point, impact.normal)) {
     fail(t, "body '" + body.name + "' comes to rest on the curved or sharp part of obstacle '" + obstacle.name +
                 "', where trajet cannot follow it");
     return false;
   }
-  if (body.radius > 0.0 &&
-      moves_off(obstacle.shape, impact.normal, impact.position, instant.q.segment<3>(body.offset + 3))) {
+  if (bounding_radius(body.solid) > 0.0 && moves_off(face_outline(obstacle.shape, impact.point, impact.normal),
+                                                     impact.position, instant.q.segment<3>(body.offset + 3))) {
     fail(t, "body '" + body.name + "' slides over an edge of obstacle '" + obstacle.name +
                 "' too slowly to leave it, where trajet cannot follow it");
     return false;
   }
-  lasting_contacts_.begin(instant, pair.id, impact.normal, t + bouncing_time(speed, pull, obstacle.restitution),
-                          impact.time_error_bound);
+  lasting_contacts_.begin(instant, pair.id, impact.normal, impact.point,
+                          t + bouncing_time(speed, pull, obstacle.restitution), impact.time_error_bound);
   lasting_contacts_.release_by_force(instant, pair.id.body);
   return true;
 }

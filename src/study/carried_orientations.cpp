@@ -10,7 +10,7 @@ Eigen::VectorXd carried_as_in(const World& to, const World& from, int group, con
   for (const int b : to.groups[g].bodies) {
     const World::Body& here = to.bodies[static_cast<std::size_t>(b)];
     const World::Body& there = from.bodies[static_cast<std::size_t>(b)];
-    result.segment<6>(here.offset) = q.segment<6>(there.offset);
+    here.slice().moving_part(result) = there.slice().moving_part(q);
     if (!here.rotation) continue;
     const OrientationLayout &layout = here.rotation->layout, &other = there.rotation->layout;
     const auto numbers = q.segment(there.rotation->offset, other.size());
@@ -25,7 +25,7 @@ Eigen::VectorXd carried_as_in(const World& to, const World& from, int group, con
                            : other.quaternion(numbers.data()).normalized(),
                  part.data());
     }
-    result.segment<3>(here.rotation->offset + layout.size()) = q.segment<3>(there.rotation->offset + other.size());
+    here.slice().angular_velocity(result) = there.slice().angular_velocity(q);
   }
   for (std::size_t s = 0; s < to.states.size(); ++s)
     if (to.states[s].group == group) result[to.states[s].offset] = q[from.states[s].offset];

@@ -33,8 +33,8 @@ void ErrorMeter::begin(const World& world) {
     group.until = start_;
     group.is_position.resize(static_cast<std::size_t>(world.groups[g].start.size()));
     for (const int b : world.groups[g].bodies) {
-      const int offset = world.bodies[static_cast<std::size_t>(b)].offset;
-      std::fill_n(group.is_position.begin() + offset, 3, true);
+      const int position = world.bodies[static_cast<std::size_t>(b)].slice().position_index();
+      std::fill_n(group.is_position.begin() + position, 3, true);
     }
     state_ = world.groups[g].start;
     read_reference(static_cast<int>(g), start_);

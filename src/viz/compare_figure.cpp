@@ -174,9 +174,9 @@ class CompareFigure {
 ShownComponent find_component(const World& world, const std::string& name, const SourceLocation& where) {
   std::vector<std::string> known;
   for (const World::Body& body : world.bodies)
-    for (int i = 0; i < 6; ++i) {
+    for (int i = 0; i < BodySlice::kMovingSize; ++i) {
       known.push_back(body.name + (i < 3 ? "." : ".v") + "xyz"[i % 3]);
-      if (known.back() == name) return {body.group, body.offset + i, name + (i < 3 ? " [m]" : " [m/s]")};
+      if (known.back() == name) return {body.group, body.slice().first + i, name + (i < 3 ? " [m]" : " [m/s]")};
     }
   for (const World::ExtraState& state : world.states) {
     known.push_back(state.name);

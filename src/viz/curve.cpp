@@ -51,10 +51,11 @@ std::vector<Drawn> drawn_components(const World& world, int group) {
   std::vector<Drawn> drawn;
   for (const World::Body& body : world.bodies) {
     if (body.group != group) continue;
+    const BodySlice slice = body.slice();
     // paths have an axis for each coordinate
-    for (int i = 0; i < 3; ++i) drawn.push_back({body.offset + i, 1, false, body.offset, 3});
-    drawn.insert(drawn.end(), {{body.offset + 3, 3, false}, {body.offset + 3, 3, true}});
-    if (body.rotation) drawn.push_back({body.rotation->offset + body.rotation->layout.size(), 3, false});
+    for (int i = 0; i < 3; ++i) drawn.push_back({slice.position_index() + i, 1, false, slice.position_index(), 3});
+    drawn.insert(drawn.end(), {{slice.velocity_index(), 3, false}, {slice.velocity_index(), 3, true}});
+    if (body.rotation) drawn.push_back({slice.angular_velocity_index(), 3, false});
   }
   for (const World::ExtraState& state : world.states)
     if (state.group == group) drawn.push_back({state.offset, 1, false});

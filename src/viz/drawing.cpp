@@ -175,9 +175,9 @@ double Look::radius() const {
 }
 
 Look look(const World::Body& body) {
-  Look look{.faces = faces(body.surface), .turns = body.rotation.has_value()};
-  look.has_dark_pentagons = body.shape == "soccer-ball";
-  if (body.is_ball) look.ball_radius = body.radius;
+  Look look{.faces = faces(picture_mesh(body.solid)), .turns = body.rotation.has_value()};
+  look.has_dark_pentagons = std::holds_alternative<SoccerBall>(body.solid);
+  if (const auto* ball = std::get_if<Ball>(&body.solid)) look.ball_radius = ball->radius;
   if (look.faces.empty() && look.ball_radius == 0.0)
     for (const World::Point& point : body.points) look.points.push_back(point.p_B);
   return look;

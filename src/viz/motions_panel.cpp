@@ -20,7 +20,7 @@ constexpr int kReferencePoints = 400;
 /// An axis of the picture in space shows at least this part of the longest one.
 constexpr double kLeastExtent = 1.0 / 16.0;
 
-Vector3 position(const std::vector<double>& state, int offset) { return Vector3::Map(state.data() + offset); }
+Vector3 position(const std::vector<double>& state, int first) { return Vector3::Map(state.data() + first); }
 
 Ranges ranges_of(const Eigen::AlignedBox3d& box) {
   if (box.isEmpty()) return Ranges(3);
@@ -81,10 +81,10 @@ void MotionsPanel::choose_components() {
   double size = 0.0;
   for (std::size_t b = 0; b < world_.bodies.size(); ++b) {
     const World::Body& body = world_.bodies[b];
-    owners_.push_back({body.group, body.offset, b});
+    owners_.push_back({body.group, body.slice().position_index(), b});
     for (const auto& state : reference_states(body.group).values)
       for (int i = 0; i < 3; ++i) {
-        const double coordinate = position(state, body.offset)[i];
+        const double coordinate = position(state, body.slice().position_index())[i];
         ranges[static_cast<std::size_t>(i)].include(coordinate);
         if (std::isfinite(coordinate)) size = std::max(size, std::abs(coordinate));
       }
@@ -135,11 +135,11 @@ double MotionsPanel::closed_form_end(double until) const {
   const auto is_behind_a_plane = [&](double t) {
     for (const World::Body& body : world_.bodies) {
       comparison_.reference->state(body.group, t, q);
-      const Vector3 position = q.segment<3>(body.offset);
+      const Vector3 position = body.slice().position(q);
       for (const World::Obstacle& obstacle : world_.obstacles)
         if (const auto* plane = std::get_if<Plane>(&obstacle.shape);
             plane != nullptr && obstacle.on_hit != OnHit::pass &&
-            plane->normal.dot(position - plane->point) < (body.is_ball ? body.radius : 0.0))
+            plane->normal.dot(position - plane->point) < (is_round(body.solid) ? bounding_radius(body.solid) : 0.0))
           return true;
     }
     return false;
@@ -215,7 +215,7 @@ Eigen::AlignedBox3d MotionsPanel::reference_extent() const {
   Eigen::AlignedBox3d box;
   for (const World::Body& body : world_.bodies)
     for (const auto& state : reference_states(body.group).values)
-      if (const Vector3 point = position(state, body.offset); point.allFinite()) box.extend(point);
+      if (const Vector3 point = position(state, body.slice().position_index()); point.allFinite()) box.extend(point);
   for (const std::size_t b : solids_)
     for (const Pose& pose : reference_poses(world_.bodies[b])) box.extend(extent(look(world_.bodies[b]), pose));
   return box;
@@ -225,7 +225,7 @@ Eigen::AlignedBox3d MotionsPanel::extent_of(const RowMotion& motion) const {
   Eigen::AlignedBox3d box;
   for (const World::Body& body : world_.bodies)
     for (const auto& state : motion.curves[static_cast<std::size_t>(body.group)].states)
-      if (const Vector3 point = position(state, body.offset); point.allFinite()) box.extend(point);
+      if (const Vector3 point = position(state, body.slice().position_index()); point.allFinite()) box.extend(point);
   for (const std::size_t b : solids_)
     for (const Pose& pose : motion.poses[b])
       if (pose.p_WB.allFinite() && pose.R_WB.allFinite()) box.extend(extent(look(world_.bodies[b]), pose));
@@ -246,7 +246,8 @@ std::string MotionsPanel::space_script(const Frame& frame, const FigureSize& siz
     const Look shape = look(body);
     const bool is_solid = std::ranges::find(solids_, b) != solids_.end();
     std::vector<Vector3> points;
-    for (const auto& state : reference_states(body.group).values) points.push_back(position(state, body.offset));
+    for (const auto& state : reference_states(body.group).values)
+      points.push_back(position(state, body.slice().position_index()));
     // the reference lies beneath
     panel.add_path(std::move(points), fmt::format("lines lw 4 lc '{}'", color_text(kReferenceColor)),
                    b == 0 ? comparison_.reference_name : "");
@@ -256,7 +257,7 @@ std::string MotionsPanel::space_script(const Frame& frame, const FigureSize& siz
       const std::size_t r = rows_[i];
       const Curve& curve = motions_[r].curves[static_cast<std::size_t>(body.group)];
       std::vector<Vector3> way;
-      for (const auto& state : curve.states) way.push_back(position(state, body.offset));
+      for (const auto& state : curve.states) way.push_back(position(state, body.slice().position_index()));
       panel.add_path(std::move(way), line_style(r), b == 0 ? title(r, leaves(extents[i], kept)) : "");
       if (is_solid)
         for (const Pose& pose : motions_[r].poses[b]) panel.add_body(shape, pose, style(comparison_.rows[r]).color);

@@ -103,23 +103,23 @@ Json constant_mass(const World::Body& body) {
 /// What a body's law says of its acceleration where that is constant, m/s^2, else null.
 Json constant_acceleration(const World::Body& body, const Program& law) {
   Json acceleration;
-  for (int i = 3; i < 6; ++i) {
-    const std::optional<double> component = constant_output(law, body.offset + i);
+  for (int i = 0; i < 3; ++i) {
+    const std::optional<double> component = constant_output(law, body.slice().velocity_index() + i);
     if (!component) return nullptr;
     acceleration.push_back(*component);
   }
   return acceleration;
 }
 
-Json shape_data(const World::Body& body) {
-  if (body.shape == "soccer-ball") return {{"kind", "soccer-ball"}, {"radius", body.radius}};
-  if (!body.surface.triangles.empty()) {
-    Json shape = {{"kind", "mesh"}, {"vertices", Json::array()}, {"triangles", body.surface.triangles}};
-    for (const Vector3& vertex : body.surface.vertices) shape["vertices"].push_back(array(vertex));
-    return shape;
-  }
-  if (body.radius > 0.0 && body.is_ball) return {{"kind", "sphere"}, {"radius", body.radius}};
-  return {{"kind", "point"}};
+/// A solid as the page draws it: what has flat faces, or is drawn with some, is a mesh.
+Json shape_data(const Solid& solid) {
+  if (const auto* ball = std::get_if<SoccerBall>(&solid)) return {{"kind", "soccer-ball"}, {"radius", ball->radius}};
+  if (const auto* ball = std::get_if<Ball>(&solid)) return {{"kind", "sphere"}, {"radius", ball->radius}};
+  const TriangleMesh surface = picture_mesh(solid);
+  if (surface.triangles.empty()) return {{"kind", "point"}};
+  Json shape = {{"kind", "mesh"}, {"vertices", Json::array()}, {"triangles", surface.triangles}};
+  for (const Vector3& vertex : surface.vertices) shape["vertices"].push_back(array(vertex));
+  return shape;
 }
 
 std::string_view kind(OrientationWay way) {
@@ -136,13 +136,13 @@ std::string_view kind(OrientationWay way) {
   return "quaternion";
 }
 
-Json object(const World::Rotation& rotation) {
+Json object(const World::Rotation& rotation, const BodySlice& slice) {
   Json inertia;
   if (rotation.inertia)
     for (int row = 0; row < 3; ++row) inertia.push_back(array(Vector3(rotation.inertia->row(row))));
   return {{"kind", kind(rotation.layout.way)},
-          {"component", rotation.offset},
-          {"angular_velocity", rotation.offset + rotation.layout.size()},
+          {"component", slice.orientation_index()},
+          {"angular_velocity", slice.angular_velocity_index()},
           {"frame", rotation.layout.frame == Frame::world ? "world" : "body"},
           {"free", rotation.is_free},
           {"inertia", inertia}};
@@ -150,19 +150,20 @@ Json object(const World::Rotation& rotation) {
 
 Json body_data(const World::Body& body, const World::Group& group) {
   const Quaternion& q = body.q_WB;
+  const BodySlice slice = body.slice();
   Json data = {{"name", body.name},
-               {"shape", shape_data(body)},
+               {"shape", shape_data(body.solid)},
                {"mass", constant_mass(body)},
                {"group", body.group},
                {"field", constant_acceleration(body, group.law)},
-               {"position", body.offset},
-               {"velocity", body.offset + 3},
+               {"position", slice.position_index()},
+               {"velocity", slice.velocity_index()},
                {"points", Json::array()},
                {"attitude", {q.w(), q.x(), q.y(), q.z()}}};
   for (const World::Point& point : body.points)
     data["points"].push_back({{"name", point.name}, {"position", array(point.p_B)}});
   if (body.color) data["color"] = color_text(*body.color);
-  if (body.rotation) data["rotation"] = object(*body.rotation);
+  if (body.rotation) data["rotation"] = object(*body.rotation, slice);
   return data;
 }
 

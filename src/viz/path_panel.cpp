@@ -54,7 +54,8 @@ std::vector<Vector3> PathPanel::path(const World::Body& body) const {
   const std::vector<std::vector<double>>& states = curve(body).states;
   if (states.empty()) return {make_poses(record_, body).front().p_WB};
   std::vector<Vector3> points;
-  for (const std::vector<double>& state : states) points.push_back(Vector3::Map(state.data() + body.offset));
+  for (const std::vector<double>& state : states)
+    points.push_back(Vector3::Map(state.data() + body.slice().position_index()));
   return points;
 }
 

@@ -8,9 +8,9 @@
 namespace trajet {
 
 Pose pose(const World::Body& body, double time, const Eigen::VectorXd& state) {
-  Pose result{time, state.segment<3>(body.offset), Matrix3::Identity()};
+  Pose result{time, body.slice().position(state), Matrix3::Identity()};
   result.R_WB =
-      body.rotation ? body.rotation->layout.matrix(state.data() + body.rotation->offset) : rotation_matrix(body.q_WB);
+      body.rotation ? body.rotation->layout.matrix(body.slice().orientation(state)) : rotation_matrix(body.q_WB);
   return result;
 }
 

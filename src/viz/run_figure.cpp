@@ -54,21 +54,23 @@ constexpr double kRounding = 1e-12;
 /// is 0 throughout, or by rounding alone not 0: what would not change the quantity before it within the run.
 std::vector<Quantity> quantities_of(const World::Body& body, const Curve& curve) {
   const double duration = curve.times.empty() ? 0.0 : std::abs(curve.times.back() - curve.times.front());
-  const double position = largest(curve, false, body.offset) + detail::look(body).radius();
-  const double velocity = largest(curve, false, body.offset + 3), acceleration = largest(curve, true, body.offset + 3);
+  const BodySlice slice = body.slice();
+  const double position = largest(curve, false, slice.position_index()) + detail::look(body).radius();
+  const double velocity = largest(curve, false, slice.velocity_index());
+  const double acceleration = largest(curve, true, slice.velocity_index());
   const bool moves = velocity * duration > kRounding * position;
   const bool accelerates =
       acceleration * duration > kRounding * std::max(velocity, position / std::max(duration, 1e-300));
   std::vector<Quantity> quantities;
   if (moves || !body.rotation || curve.times.empty())
-    quantities = {{"position [m]", "#0050c8", false, body.offset},
-                  {"velocity [m/s]", "#008a20", false, body.offset + 3}};
+    quantities = {{"position [m]", "#0050c8", false, slice.position_index()},
+                  {"velocity [m/s]", "#008a20", false, slice.velocity_index()}};
   if (accelerates || curve.times.empty())
-    quantities.push_back({"acceleration [m/s²]", "#d01010", true, body.offset + 3});
+    quantities.push_back({"acceleration [m/s²]", "#d01010", true, slice.velocity_index()});
   if (body.rotation) {
     const bool is_in_world = body.rotation->layout.frame == Frame::world;
     quantities.push_back({is_in_world ? "ω, world [rad/s]" : "ω, body's frame [rad/s]", "#b06000", false,
-                          body.rotation->offset + body.rotation->layout.size()});
+                          slice.angular_velocity_index()});
   }
   return quantities;
 }

@@ -10,7 +10,7 @@
 #include <random>
 #include <vector>
 
-#include "trajet/collide/detect/table.hpp"
+#include "trajet/collide/detect/contact_table.hpp"
 
 namespace trajet {
 namespace {

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "trajet/collide/detect/table.hpp"
+#include "trajet/collide/detect/contact_table.hpp"
 #include "trajet/collide/respond/restitution.hpp"
 
 namespace trajet {

@@ -49,7 +49,7 @@ LIBRARY_INCLUDE = re.compile(r"^\s*#\s*include\s*<([^/>]+)")
 
 
 def place(path):
-    """The layer of a file and its name within the house without extension: (collide, collide/detect/table)."""
+    """The layer of a file and its name within the house without extension: (collide, collide/detect/contact_table)."""
     parts = path.with_suffix("").parts
     if parts[0] == "apps":
         return "apps", "/".join(parts)

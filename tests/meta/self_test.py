@@ -40,7 +40,7 @@ class IncludeDirections(Tree):
     def test_allowed(self):
         self.check("src/law/parser.cpp", ["trajet/error.hpp", "trajet/version.hpp", "trajet/math/roots.hpp", "lexer.hpp"], False)
         self.check("include/trajet/event/locate.hpp", ["trajet/ode/segment.hpp"], False)
-        self.check("include/trajet/collide/detect/table.hpp", ["trajet/geom/box.hpp", "trajet/math/roots.hpp"], False)
+        self.check("include/trajet/collide/detect/contact_table.hpp", ["trajet/geom/box.hpp", "trajet/math/roots.hpp"], False)
         self.check("src/scene/world.cpp", ["trajet/law/program.hpp", "trajet/ode/stepper.hpp"], False)
 
     def test_math_includes_a_layer(self):

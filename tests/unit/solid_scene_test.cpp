@@ -351,7 +351,7 @@ TEST(SolidScene, ImpactsOfOtherSolidsAreNotMissedInSilence) {
   const RunResult near = run_text(scene(box + "position = [0, 0, 2.25]", ground));
   EXPECT_EQ(near.status, RunStatus::failed);
   EXPECT_NEAR(near.end_time, 0.75, 1e-12);
-  EXPECT_NE(near.failure.find("contact unresolved: box 'b'"), std::string::npos) << near.failure;
+  EXPECT_NE(near.failure.find("contact unresolved: body 'b'"), std::string::npos) << near.failure;
 }
 
 }  // namespace

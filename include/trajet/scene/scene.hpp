@@ -49,6 +49,7 @@ struct MethodOptions {
   SourceLocation orientation_where{};
 };
 
+/// Shapes, in the frame of what has them: bodies and obstacles share them, though not all suit both.
 struct PointShape {};
 struct BallShape {
   Expression radius;  ///< m
@@ -57,10 +58,10 @@ struct CuboidShape {
   Expression size;  ///< full edge lengths, m
 };
 struct CylinderShape {
-  Expression radius, height;  ///< m; along z of the body
+  Expression radius, height;  ///< m; along z
 };
 struct CapsuleShape {
-  Expression radius, height;  ///< m; along z of the body; the height without the half spheres
+  Expression radius, height;  ///< m; along z; the height without the half spheres
 };
 struct SoccerBallShape {
   Expression radius;  ///< of the corners of the truncated icosahedron, m
@@ -72,9 +73,24 @@ struct MeshShape {
   TriangleMesh mesh;
   Expression scale = 1.0;  ///< of the mesh's coordinates, m
 };
-/// Solids have their centre of mass at the origin of the body's frame: hulls and meshes are moved there.
-using BodyShape = std::variant<PointShape, BallShape, CuboidShape, CylinderShape, CapsuleShape, SoccerBallShape,
-                               HullShape, MeshShape>;
+/// Matter fills the side away from the normal. A plane, a disk and a rectangle lie around the origin.
+struct PlaneShape {
+  Expression normal;  ///< any length
+};
+struct DiskShape {
+  Expression normal;  ///< any length
+  Expression radius;  ///< m
+};
+struct RectangleShape {
+  Expression normal;         ///< any length
+  Expression up;             ///< direction of the height, made orthogonal to the normal
+  Expression width, height;  ///< m, full edge lengths; the height along `up`
+};
+struct TriangleShape {
+  Expression a, b, c;  ///< corners, m
+};
+using ShapeDefinition = std::variant<PointShape, BallShape, CuboidShape, CylinderShape, CapsuleShape, SoccerBallShape,
+                                     HullShape, MeshShape, PlaneShape, DiskShape, RectangleShape, TriangleShape>;
 
 /// Exactly one of the three, or none for the identity.
 struct OrientationDefinition {
@@ -87,7 +103,9 @@ struct OrientationDefinition {
 /// A moving body. Its name is usable in every law as NAME.r, NAME.vx, ….
 struct BodyDefinition {
   std::string name;
-  BodyShape shape = PointShape{};
+  /// Its centre of mass is the origin of the body's frame: hulls and meshes are moved there. Planes and what is thin
+  /// are no bodies.
+  ShapeDefinition shape = PointShape{};
   Expression position = Vector3(0, 0, 0);   ///< p_WB at the start, m
   Expression velocity = Vector3(0, 0, 0);   ///< v_WB at the start, m/s
   std::optional<Expression> acceleration;   ///< m/s^2; or `force` with `mass`; neither: uniform motion
@@ -119,35 +137,15 @@ struct ExactOrientation {
   SourceLocation where{};
 };
 
-struct PlaneDefinition {
-  Expression point;   ///< m
-  Expression normal;  ///< any length; the body lives on the side it points to
-};
-struct DiskDefinition {
-  Expression center, normal, radius;
-};
-struct RectangleDefinition {
-  Expression center, normal, up;  ///< `up`: direction of the height, made orthogonal to the normal
-  Expression width, height;       ///< m, full edge lengths; the height along `up`
-};
-struct TriangleDefinition {
-  Expression a, b, c;  ///< corners, m
-};
-struct SphereDefinition {
-  Expression center, radius;
-};
-struct BoxDefinition {
-  Expression center, size;  ///< size: full edge lengths, m
-  OrientationDefinition orientation{};
-};
-using ObstacleShape = std::variant<PlaneDefinition, DiskDefinition, RectangleDefinition, TriangleDefinition,
-                                   SphereDefinition, BoxDefinition>;
-
 enum class OnHit { stop, bounce, pass };
 
+/// Something at rest that bodies meet.
 struct ObstacleDefinition {
   std::string name;
-  ObstacleShape shape;
+  ShapeDefinition shape;  ///< a ball, a cuboid, a plane, a disk, a rectangle or a triangle
+  /// Where the origin of the shape's frame is, m; none: at that of the world.
+  std::optional<Expression> center{};
+  OrientationDefinition orientation{};  ///< of the shape's frame
   OnHit on_hit = OnHit::stop;
   std::optional<Expression> restitution{};  ///< 0..1, for bounce; none: 1
   std::optional<RgbColor> color{};          ///< in pictures; none: grey

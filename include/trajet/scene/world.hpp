@@ -5,10 +5,11 @@
 #include <vector>
 
 #include "trajet/geom/shapes.hpp"
-#include "trajet/geom/triangle_mesh.hpp"
+#include "trajet/geom/solid.hpp"
 #include "trajet/law/program.hpp"
 #include "trajet/ode/registry.hpp"
 #include "trajet/rigid/orientation.hpp"
+#include "trajet/scene/body_slice.hpp"
 #include "trajet/scene/named_value.hpp"
 #include "trajet/scene/scene.hpp"
 
@@ -34,30 +35,33 @@ struct World {
     Vector3 p_B;  ///< m
   };
 
-  struct Body {
+  /// What bodies and obstacles have in common.
+  struct Thing {
     std::string name;
-    std::string_view shape;  ///< as scenes name it
-    double radius = 0.0;     ///< m, around the centre of mass; 0: a point
-    bool is_ball = true;     ///< the radius is that of the surface, else of the farthest point
-    /// Body's frame; of boxes, soccer balls, hulls and meshes; of cylinders and capsules flat pieces within them, for
-    /// pictures.
-    TriangleMesh surface;
-    std::vector<Point> points;
-    int group = 0;
-    int offset = 0;                       ///< of the position in the group's state; the velocity follows it
-    Quaternion q_WB{1.0, 0.0, 0.0, 0.0};  ///< at the start, unit
-    std::optional<Rotation> rotation;     ///< none: it does not turn
-    std::optional<Program> mass;          ///< kg, one output
-    std::optional<RgbColor> color;        ///< as the scene says
+    Solid solid;
+    std::optional<RgbColor> color{};  ///< as the scene says
     SourceLocation where{};
   };
 
-  struct Obstacle {
-    std::string name;
-    Shape shape;
+  /// A thing that is free to move.
+  struct Body : Thing {
+    std::vector<Point> points;
+    int group = 0;
+    int offset = 0;                       ///< of its numbers in the group's state: see `slice`
+    Quaternion q_WB{1.0, 0.0, 0.0, 0.0};  ///< at the start, unit
+    std::optional<Rotation> rotation;     ///< none: it does not turn
+    std::optional<Program> mass;          ///< kg, one output
+
+    BodySlice slice() const { return {offset, rotation ? std::optional(rotation->layout) : std::nullopt}; }
+  };
+
+  /// A thing that is fixed in the world.
+  struct Obstacle : Thing {
+    Vector3 p_WB;                         ///< of the solid's frame, m
+    Quaternion q_WB{1.0, 0.0, 0.0, 0.0};  ///< unit
+    Shape shape;                          ///< the solid where it stands
     OnHit on_hit = OnHit::stop;
     double restitution = 1.0;
-    std::optional<RgbColor> color{};  ///< as the scene says
   };
 
   struct ExtraState {

@@ -1,6 +1,6 @@
 #include "contact_report.hpp"
 #include "step_end_search.hpp"
-#include "trajet/collide/detect/table.hpp"
+#include "trajet/collide/detect/contact_table.hpp"
 #include "trajet/event/linear_function.hpp"
 #include "trajet/geom/distance.hpp"
 

@@ -1,5 +1,5 @@
 #include "grown_shape.hpp"
-#include "trajet/collide/detect/table.hpp"
+#include "trajet/collide/detect/contact_table.hpp"
 #include "trajet/geom/distance.hpp"
 
 namespace trajet {

@@ -1,7 +1,7 @@
 #include <algorithm>
 
 #include "grown_shape.hpp"
-#include "trajet/collide/detect/table.hpp"
+#include "trajet/collide/detect/contact_table.hpp"
 #include "trajet/event/linear_function.hpp"
 #include "trajet/geom/distance.hpp"
 

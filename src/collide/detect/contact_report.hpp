@@ -5,7 +5,7 @@
 
 #include "contact_search.hpp"
 #include "trajet/collide/detect/contact.hpp"
-#include "trajet/collide/detect/table.hpp"
+#include "trajet/collide/detect/contact_table.hpp"
 #include "trajet/geom/shapes.hpp"
 #include "trajet/math/polynomial.hpp"
 

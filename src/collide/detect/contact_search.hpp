@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "trajet/collide/detect/contact.hpp"
-#include "trajet/collide/detect/table.hpp"
+#include "trajet/collide/detect/contact_table.hpp"
 #include "trajet/math/root_search.hpp"
 
 namespace trajet::detail {

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "contact_search.hpp"
-#include "trajet/collide/detect/table.hpp"
+#include "trajet/collide/detect/contact_table.hpp"
 #include "trajet/math/polynomial.hpp"
 
 namespace trajet::detail {

@@ -1,5 +1,5 @@
 // A ball in the air, by two methods that know nothing of each other; the landing is at a zero of its height.
-#include <trajet/collide/detect/table.hpp>
+#include <trajet/collide/detect/contact_table.hpp>
 #include <trajet/ode/solve.hpp>
 #include <trajet/version.hpp>
 

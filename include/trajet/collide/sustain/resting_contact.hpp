@@ -14,6 +14,7 @@ struct RestingContact {
   int obstacle = 0;  ///< in World::obstacles
   int offset = 0;    ///< of the body in the group's state
   Vector3 normal;    ///< unit, away from the obstacle
+  Vector3 point;     ///< of the face on which the body stays, m
   Vector3 release =
       normal;  ///< the contact would have to pull where release . a > 0, a the acceleration without contacts
 };
@@ -26,13 +27,6 @@ struct Support {
   std::vector<Vector3> release;
 };
 Support support(const std::vector<Vector3>& normals);
-
-/// Whether a body can rest on a shape where its normal is `normal`: on a flat face; not on a curved surface, an edge, a
-/// corner.
-bool is_flat_at(const Shape& shape, const Vector3& normal);
-
-/// Whether a body whose centre is at `position` is at an edge of the face with that normal, and moves off it.
-bool moves_off(const Shape& shape, const Vector3& normal, const Vector3& position, const Vector3& velocity);
 
 /// The law of a group with the body at `offset` held back in a direction (unit): of the rates of its position and its
 /// velocity, the parts along it are taken out.

@@ -1,0 +1,102 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <variant>
+
+#include "trajet/geom/aabb.hpp"
+#include "trajet/geom/mass_properties.hpp"
+#include "trajet/geom/triangle_mesh.hpp"
+#include "trajet/math/vector.hpp"
+
+namespace trajet {
+
+/// Solids in a frame of their own, with the centre of mass at its origin: what bodies and obstacles alike are made of,
+/// wherever they stand. Plain numbers, m.
+
+struct Point {};
+
+struct Ball {
+  double radius;
+};
+
+struct Cuboid {
+  Vector3 half_size;
+};
+
+/// Around z.
+struct Cylinder {
+  double radius;
+  double half_height;
+};
+
+/// Around z: the points within `radius` of a stretch of the axis.
+struct Capsule {
+  double radius;
+  double half_height;  ///< of the stretch
+};
+
+/// A truncated icosahedron.
+struct SoccerBall {
+  double radius;  ///< of its corners
+};
+
+/// The surface of a hull or a mesh, with what follows from it.
+struct Polyhedron {
+  TriangleMesh surface;
+  double radius = 0.0;                           ///< of the farthest vertex
+  std::optional<VolumeProperties> properties{};  ///< none where the surface is open
+};
+
+/// A convex solid.
+struct Hull {
+  std::shared_ptr<const Polyhedron> polyhedron;
+};
+
+/// What a surface of triangles encloses; where it is open, the thin surface itself.
+struct Mesh {
+  std::shared_ptr<const Polyhedron> polyhedron;
+};
+
+/// z <= 0.
+struct HalfSpace {};
+
+/// Thin and two-sided, in the plane z = 0.
+struct RoundPlate {
+  double radius;
+};
+struct RectangularPlate {
+  double half_width;   ///< along x
+  double half_height;  ///< along y
+};
+struct TriangularPlate {
+  Vector3 corners[3];  ///< counterclockwise seen from z
+};
+
+using Solid = std::variant<Point, Ball, Cuboid, Cylinder, Capsule, SoccerBall, Hull, Mesh, HalfSpace, RoundPlate,
+                           RectangularPlate, TriangularPlate>;
+
+/// The convex hull of points, moved to its centre of mass. Throws std::domain_error as `convex_hull` does.
+Hull make_hull(std::span<const Vector3> points);
+/// A closed surface, moved to its centre of mass. Throws std::domain_error as `closed_mesh` does.
+Mesh make_closed_mesh(const TriangleMesh& surface);
+
+/// The distance of the farthest point from the origin; infinite for a half space.
+double bounding_radius(const Solid& solid);
+
+/// Whether the solid is all that is within a distance of its origin, so that it has a contact where its centre comes
+/// that near: a point or a ball.
+bool is_round(const Solid& solid);
+
+/// Volume, centre of mass and inertia; none of what has no volume, or an infinite one.
+std::optional<VolumeProperties> volume_properties(const Solid& solid);
+
+/// A box around a solid whose frame B stands in the world like this; it contains the solid in spite of rounding.
+Aabb bounds(const Solid& solid, const Vector3& p_WB, const Matrix3& R_WB);
+
+/// The surface in flat pieces, for pictures: what is round along an axis has 32 sides, within the solid. Nothing of
+/// points, balls and half spaces, and of what is too flat for a picture.
+TriangleMesh picture_mesh(const Solid& solid);
+
+}  // namespace trajet

@@ -1,0 +1,121 @@
+#include "trajet/geom/flat_faces.hpp"
+
+#include <cmath>
+#include <variant>
+
+namespace trajet {
+namespace {
+
+/// The direction in which a face of a shape looks, if it is flat there.
+class FlatNormal {
+ public:
+  explicit FlatNormal(const Vector3& normal) : normal_(normal) {}
+
+  bool operator()(const Plane& plane) const { return is_parallel(plane.normal); }
+  bool operator()(const Disk& disk) const { return is_parallel(disk.normal); }
+  bool operator()(const Rectangle& rectangle) const { return is_parallel(rectangle.normal); }
+  bool operator()(const Triangle& triangle) const { return is_parallel(triangle.normal); }
+  bool operator()(const Box& box) const {
+    return is_parallel(box.R_WB.col(0)) || is_parallel(box.R_WB.col(1)) || is_parallel(box.R_WB.col(2));
+  }
+  bool operator()(const Sphere&) const { return false; }
+
+ private:
+  bool is_parallel(const Vector3& direction) const {
+    constexpr double kTilt = 1e-9;  // rad: far above rounding, far below what an edge's normal is off
+    return normal_.cross(direction).norm() < kTilt;
+  }
+
+  Vector3 normal_;
+};
+
+class Outline {
+ public:
+  explicit Outline(const Vector3& normal) : normal_(normal) {}
+
+  FaceOutline operator()(const Plane&) const { return {}; }
+  FaceOutline operator()(const Sphere&) const { return {}; }
+  FaceOutline operator()(const Disk& disk) const { return {{}, FaceRim{disk.center, disk.normal, disk.radius}}; }
+  FaceOutline operator()(const Rectangle& rectangle) const {
+    FaceOutline outline;
+    add_pair(outline, rectangle.center, rectangle.up.cross(rectangle.normal), 0.5 * rectangle.width);
+    add_pair(outline, rectangle.center, rectangle.up, 0.5 * rectangle.height);
+    return outline;
+  }
+  FaceOutline operator()(const Triangle& triangle) const {
+    FaceOutline outline;
+    for (int i = 0; i < 3; ++i)
+      outline.edges.push_back({triangle.edge_outward[i], triangle.edge_outward[i].dot(triangle.corners[i])});
+    return outline;
+  }
+  FaceOutline operator()(const Box& box) const {
+    FaceOutline outline;
+    int face = 0;
+    (box.R_WB.transpose() * normal_).cwiseAbs().maxCoeff(&face);
+    for (int i = 0; i < 3; ++i)
+      if (i != face) add_pair(outline, box.center, box.R_WB.col(i), box.half_size[i]);
+    return outline;
+  }
+
+ private:
+  static void add_pair(FaceOutline& outline, const Vector3& center, const Vector3& direction, double half_length) {
+    outline.edges.push_back({direction, direction.dot(center) + half_length});
+    outline.edges.push_back({-direction, -direction.dot(center) + half_length});
+  }
+
+  Vector3 normal_;
+};
+
+struct Thin {
+  bool operator()(const Plane&) const { return false; }
+  bool operator()(const Disk&) const { return true; }
+  bool operator()(const Rectangle&) const { return true; }
+  bool operator()(const Triangle&) const { return true; }
+  bool operator()(const Sphere&) const { return false; }
+  bool operator()(const Box&) const { return false; }
+};
+
+/// The normal of a thin shape's positive side.
+struct PositiveSide {
+  using Result = std::optional<Vector3>;
+  Result operator()(const Plane&) const { return std::nullopt; }
+  Result operator()(const Disk& disk) const { return disk.normal; }
+  Result operator()(const Rectangle& rectangle) const { return rectangle.normal; }
+  Result operator()(const Triangle& triangle) const { return triangle.normal; }
+  Result operator()(const Sphere&) const { return std::nullopt; }
+  Result operator()(const Box&) const { return std::nullopt; }
+};
+
+}  // namespace
+
+bool is_thin(const Shape& shape) { return std::visit(Thin(), shape); }
+
+bool looks_down(const Shape& shape, const Vector3& normal) {
+  const std::optional<Vector3> positive = std::visit(PositiveSide(), shape);
+  return positive && positive->dot(normal) < 0.0;
+}
+
+bool is_flat_at(const Shape& shape, const Vector3& /*point*/, const Vector3& normal) {
+  return std::visit(FlatNormal(normal), shape);
+}
+
+FaceOutline face_outline(const Shape& shape, const Vector3& /*point*/, const Vector3& normal) {
+  return std::visit(Outline(normal), shape);
+}
+
+bool moves_off(const FaceOutline& outline, const Vector3& position, const Vector3& velocity) {
+  constexpr double kAtEdge = 1e-12;  // of the place and the size: far above rounding
+  for (const FaceEdge& edge : outline.edges) {
+    const double beyond = edge.direction.dot(position) - edge.limit;
+    const double near = kAtEdge * (position.lpNorm<1>() + std::abs(edge.limit));
+    if (beyond >= -near && edge.direction.dot(velocity) > 0.0) return true;
+  }
+  if (!outline.rim) return false;
+  const FaceRim& rim = *outline.rim;
+  Vector3 arm = position - rim.center;
+  arm -= arm.dot(rim.normal) * rim.normal;
+  const double near = kAtEdge * (position.lpNorm<1>() + rim.center.lpNorm<1>() + rim.radius);
+  return arm.norm() >= rim.radius - near && arm.dot(velocity) > 0.0;
+}
+
+}  // namespace trajet

@@ -1,0 +1,14 @@
+#pragma once
+
+#include "scene_numbers.hpp"
+#include "trajet/scene/world.hpp"
+
+namespace trajet {
+
+/// A body's shape with its numbers. Throws InputError that points at the place.
+Solid make_solid(const BodyDefinition& body, const SceneNumbers& numbers);
+
+/// An obstacle with its numbers, but for what happens at it. Throws InputError that points at the place.
+World::Obstacle make_obstacle(const ObstacleDefinition& obstacle, const SceneNumbers& numbers);
+
+}  // namespace trajet
