@@ -27,8 +27,7 @@ double duration_of(const Eigen::Ref<const Eigen::MatrixXd>& coefficients) {
 void shift(Eigen::Ref<Eigen::MatrixXd> coefficients, double by) {
   if (by == 0.0) return;
   for (Eigen::Index first = 0; first < coefficients.cols(); ++first)
-    for (Eigen::Index k = coefficients.cols() - 2; k >= first; --k)
-      coefficients.col(k) += by * coefficients.col(k + 1);
+    for (Eigen::Index k = coefficients.cols() - 2; k >= first; --k) coefficients.col(k) += by * coefficients.col(k + 1);
 }
 
 }  // namespace

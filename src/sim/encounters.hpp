@@ -14,11 +14,11 @@ namespace trajet {
 /// A body and an obstacle that may meet.
 struct Pair {
   PairId id;
-  bool is_lasting = false;  ///< they stay in contact: nothing to search
-  ContactMemory memory{};   ///< what is known of them at `known_at`
-  double known_at = 0.0;    ///< s
-  ContactResult contact{};  ///< the next one behind `known_at`, within what was searched
-  ContactMemory ahead{};    ///< what is known at `searched_to`, if there is no contact before
+  bool is_lasting = false;   ///< they stay in contact: nothing to search
+  ContactMemory memory{};    ///< what is known of them at `known_at`
+  double known_at = 0.0;     ///< s
+  ContactResult contact{};   ///< the next one behind `known_at`, within what was searched
+  ContactMemory ahead{};     ///< what is known at `searched_to`, if there is no contact before
   double searched_to = 0.0;  ///< s
 };
 
@@ -81,8 +81,8 @@ class Encounters {
 
   const World& world_;
   std::vector<Around> bodies_;
-  std::vector<int> always_;       // obstacles that are searched whatever is near
-  std::vector<int> in_tree_;      // the others, in the order of the tree
+  std::vector<int> always_;   // obstacles that are searched whatever is near
+  std::vector<int> in_tree_;  // the others, in the order of the tree
   std::optional<BoxTree> tree_;
 };
 

@@ -2,6 +2,7 @@
 
 #include <variant>
 
+#include "trajet/geom/closest_point.hpp"
 #include "trajet/geom/distance.hpp"
 #include "trajet/geom/flat_faces.hpp"
 #include "trajet/law/program_jacobian.hpp"

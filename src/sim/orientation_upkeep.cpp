@@ -9,8 +9,8 @@
 namespace trajet {
 namespace {
 
-/// Adds to some components of a Segment what leads from one correction at its start to another one at its end: smoothly,
-/// 3 s^2 - 2 s^3, where its degree is enough.
+/// Adds to some components of a Segment what leads from one correction at its start to another one at its end:
+/// smoothly, 3 s^2 - 2 s^3, where its degree is enough.
 void bend(Segment<>& segment, int first, const Eigen::VectorXd& at_start, const Eigen::VectorXd& at_end) {
   const double h = segment.duration();
   auto rows = segment.coefficients().middleRows(first, at_start.size());
@@ -57,7 +57,7 @@ void OrientationUpkeep::begin(Eigen::VectorXd& q, const Eigen::VectorXd* before)
     const OrientationLayout& layout = rotation.layout;
     double* part = q.data() + rotation.offset;
     const bool goes_on_as_it_came = before != nullptr && q.segment(turning.offset(), turning.size()) ==
-                                                            before->segment(turning.offset(), turning.size());
+                                                             before->segment(turning.offset(), turning.size());
     layout.settle(part);
     turning.correction = Eigen::VectorXd::Zero(turning.size());
     const bool is_left_alone = layout.way == OrientationWay::quaternion || layout.way == OrientationWay::matrix;

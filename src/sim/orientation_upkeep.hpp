@@ -11,8 +11,8 @@ namespace trajet {
 /// The orientations within the state of a group, put right where a step ends: unit quaternions, rotation vectors that
 /// start at 0, the energy and momentum of free tops.
 ///
-/// The Segment is bent so that it ends where the next one begins: what is reported of a motion is read from its Segments
-/// and nowhere else.
+/// The Segment is bent so that it ends where the next one begins: what is reported of a motion is read from its
+/// Segments and nowhere else.
 class OrientationUpkeep {
  public:
   OrientationUpkeep(const World& world, int group);
@@ -34,7 +34,7 @@ class OrientationUpkeep {
   struct Turning {
     const World::Rotation* rotation;
     std::optional<FreeInvariants> invariants{};  // of a free top whose way keeps them
-    Eigen::VectorXd correction{};  // of its numbers where the current step began, and then where it ended
+    Eigen::VectorXd correction{};                // of its numbers where the current step began, and then where it ended
 
     int offset() const { return rotation->offset; }
     int size() const { return rotation->layout.size() + 3; }

@@ -76,8 +76,7 @@ Sample Recorder::sample_at(double time, std::optional<int> only) const {
     for (const auto& course : courses_) add(*course, course->group().bodies);
   }
   for (const World::ExtraState& state : world_.states)
-    sample.states.push_back(
-        {state.name, courses_[static_cast<std::size_t>(state.group)]->state(time)[state.offset]});
+    sample.states.push_back({state.name, courses_[static_cast<std::size_t>(state.group)]->state(time)[state.offset]});
   return sample;
 }
 

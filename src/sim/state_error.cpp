@@ -81,8 +81,7 @@ void StateError::add(const Eigen::VectorXd& error) {
 void StateError::reduce() {
   const Eigen::Index n = generators_.rows(), count = generators_.cols();
   // what a column adds to the box around it, which it is replaced by
-  const Eigen::VectorXd excess =
-      generators_.cwiseAbs().colwise().sum() - generators_.cwiseAbs().colwise().maxCoeff();
+  const Eigen::VectorXd excess = generators_.cwiseAbs().colwise().sum() - generators_.cwiseAbs().colwise().maxCoeff();
   std::vector<Eigen::Index> order(static_cast<std::size_t>(count));
   std::iota(order.begin(), order.end(), Eigen::Index{0});
   std::ranges::stable_sort(order, {}, [&](Eigen::Index column) { return excess[column]; });

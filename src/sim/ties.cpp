@@ -43,8 +43,7 @@ void warn_of_hidden_ties(const World& world, const Encounters& encounters, const
 bool settle_other_contacts(const World& world, const Encounters& encounters, const Pair& handled, const Impact& impact,
                            Instant& instant, Recorder& recorder) {
   bool stops = false;
-  const Vector3 velocity =
-      instant.rate().segment<3>(world.bodies[static_cast<std::size_t>(handled.id.body)].offset);
+  const Vector3 velocity = instant.rate().segment<3>(world.bodies[static_cast<std::size_t>(handled.id.body)].offset);
   for (const PairId id : encounters.met_at_once(handled)) {
     const Pair& pair = pair_of(encounters, id);
     // of the two products of speeds and normals by which the bounce came about

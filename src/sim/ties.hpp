@@ -15,8 +15,8 @@ inline bool is_hit(const ContactResult& contact) {
 /// counts once, on whichever side of it the body is then.
 PairId first_to_handle(const World& world, const Encounters& encounters, const Pair& contact);
 
-/// Says that impacts of other pairs, which will not be handled, or handled otherwise, because `impact` of `handled` was,
-/// may have been first as well.
+/// Says that impacts of other pairs, which will not be handled, or handled otherwise, because `impact` of `handled`
+/// was, may have been first as well.
 void warn_of_hidden_ties(const World& world, const Encounters& encounters, const Pair& handled, const Impact& impact,
                          const Course& course, Recorder& recorder);
 
