@@ -5,6 +5,7 @@
 
 #include "body_state.hpp"
 #include "trajet/law/evaluate.hpp"
+#include "trajet/scene/describe_failure.hpp"
 
 namespace trajet {
 namespace {
@@ -15,16 +16,9 @@ constexpr int kMaxImpactsAtOnce = 1000;
 /// A step may hold any number of samples: so often in between the observer is asked whether to go on.
 constexpr long kSamplesBetweenQuestions = 4096;
 
-std::string failure_text(StepStatus status) {
-  switch (status) {
-    case StepStatus::step_too_small:
-      return "the tolerance cannot be met: the step became too small";
-    case StepStatus::not_finite:
-      return "the law is not finite";
-    case StepStatus::ok:
-      break;
-  }
-  return {};
+std::string status_text(StepStatus status) {
+  return status == StepStatus::not_finite ? "the law is not finite"
+                                          : "the tolerance cannot be met: the step became too small";
 }
 
 }  // namespace
@@ -63,6 +57,7 @@ RunResult Simulation::run() {
     record_rests_until(incident.time);
     handle(index, incident);
   }
+  if (running_) fail_if_blown_up();
   for (const auto& each : motions_) each->hand_on(result_.end_time);
   if (result_.status != RunStatus::stopped && last_sample_ != result_.end_time) write_sample(result_.end_time);
   result_.final = sample_at(result_.end_time);
@@ -91,7 +86,9 @@ void Simulation::advance(int index) {
   }
   const StepStatus status = motion(index).advance();
   if (status != StepStatus::ok) {
-    fail(result_.end_time, failure_text(status));
+    const double t = result_.end_time;
+    const std::string reason = describe_failure(world_, index, t, motion(index).state(t));
+    fail(t, status_text(status) + (reason.empty() ? "" : ": ") + reason);
     return;
   }
   enqueue(index);
@@ -241,6 +238,14 @@ void Simulation::fail(double time, const std::string& reason) {
   result_.end_time = time;
   result_.failure = reason;
   running_ = false;
+}
+
+void Simulation::fail_if_blown_up() {
+  for (std::size_t g = 0; g < motions_.size() && running_; ++g) {
+    const double t = result_.end_time;
+    const std::string reason = describe_blow_up(world_, static_cast<int>(g), t, motions_[g]->state(t));
+    if (!reason.empty()) fail(t, reason);
+  }
 }
 
 void Simulation::interrupt(double time) {

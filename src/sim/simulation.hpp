@@ -83,6 +83,8 @@ class Simulation {
   bool take_turned_away(const Motion& motion, int handled, const Impact& impact, const Eigen::VectorXd& before,
                         const Eigen::VectorXd& rate, std::vector<Released>& known);
   void fail(double time, const std::string& reason);
+  /// A motion whose state runs to infinity just at the end of the run has none there.
+  void fail_if_blown_up();
   /// Ends the run at a time: the observer has asked for it.
   void interrupt(double time);
   /// The impact as it stands before the response.
