@@ -71,10 +71,14 @@ class LawReading {
     return values;
   }
 
-  /// The first formula that is not finite; nullptr if all are.
+  /// The first formula that is not finite and makes the rate so; nullptr if there is none.
   const Formula* find_not_finite(double t, const Eigen::VectorXd& q) const {
-    const auto found = std::ranges::find_if(
-        group_.formulas, [&](const Formula& each) { return !is_finite(value(each.text, each, t, q)); });
+    const std::vector<double> rate = this->rate(t, q);
+    const auto fails = [&](const Formula& each) {
+      const auto first = rate.begin() + each.first;
+      return !is_finite({first, first + each.size}) && !is_finite(value(each.text, each, t, q));
+    };
+    const auto found = std::ranges::find_if(group_.formulas, fails);
     return found == group_.formulas.end() ? nullptr : &*found;
   }
 
@@ -165,7 +169,7 @@ std::optional<Growth> find_growth(const LawReading& law, double start, double t,
     const double usual = std::abs(law.group().start[k]) + std::abs(first_rate[i]) * elapsed;
     const double remaining = std::max(std::abs(q[k]), usual) / std::abs(rate[i]);
     if (!(remaining < kNoTime * elapsed) || (fastest && fastest->remaining <= remaining)) continue;
-    fastest = {static_cast<int>(i), remaining, std::abs(q[k]) > kLarge * usual};
+    fastest = {static_cast<int>(i), remaining, usual > 0.0 && std::abs(q[k]) > kLarge * usual};
   }
   return fastest;
 }

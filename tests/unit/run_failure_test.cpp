@@ -174,6 +174,11 @@ TEST(RunFailure, ABlowUpJustAtTheEndIsTold) {
                 RunStatus::finished)
           << rate;
   }
+  // nor is a pulse that has just begun, from rest
+  const RunResult pulse =
+      run_text("[time]\nend = 1\n[[state]]\nname = \"v\"\nvalue = 0\nrate = \"where(t > 0.9999999, 1e9, 0)\"\n");
+  EXPECT_EQ(pulse.status, RunStatus::finished) << pulse.failure;
+  EXPECT_NEAR(test::state_of(pulse, "v"), 100.0, 1e-5);
 }
 
 TEST(RunFailure, AnInterruptionKeepsWhatWasComputed) {
