@@ -1,5 +1,7 @@
 #pragma once
 
+#include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -80,8 +82,18 @@ struct World {
     std::vector<int> targets;  ///< offsets in the group's state
   };
 
+  /// A formula of the scene from which components of a group's rate are computed.
+  struct LawFormula {
+    std::string_view key;  ///< as scenes call it: `acceleration`, `rate`
+    int body = -1;         ///< in World::bodies; -1: that of the extra state at `first`
+    int first = 0;         ///< of the components
+    int size = 1;
+    Expression text;
+  };
+
   struct Group {
     Program law;  ///< outputs: the rate of the group's state
+    std::vector<LawFormula> formulas;
     Eigen::VectorXd start;
     std::vector<int> bodies;  ///< indices into World::bodies
     std::vector<int> events;  ///< indices into World::events
@@ -125,6 +137,7 @@ struct World {
   long max_steps = 0;
   Locator locate = Locator::polynomial;
   std::vector<NamedValue> parameters;
+  std::map<std::string, std::shared_ptr<const LookupTable>> tables;
   std::vector<std::string> warnings;  ///< sentences on what the scene says in vain
   std::vector<Body> bodies;
   std::vector<Obstacle> obstacles;
@@ -135,7 +148,7 @@ struct World {
   std::vector<ClosedRotation> exact_rotations;
 };
 
-/// Gives a scene its numbers. Throws InputError that points at the place, FileError for a table that cannot be read.
+/// Gives a scene its numbers. Throws InputError that points at the place.
 World make_world(const Scene& scene);
 
 }  // namespace trajet
