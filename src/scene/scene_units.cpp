@@ -78,6 +78,8 @@ class UnitCheck {
     for (const BodyDefinition& body : scene_.bodies) check_body(body);
     for (const ObstacleDefinition& obstacle : scene_.obstacles) {
       std::visit([this](const auto& shape) { check_shape(shape); }, obstacle.shape);
+      check(obstacle.center, kLength);
+      check_orientation(obstacle.orientation);
       check(obstacle.restitution, kDimensionless);
     }
     for (const StateDefinition& state : scene_.states) check_rate(state);
@@ -166,33 +168,19 @@ class UnitCheck {
   void check_shape(const HullShape& hull) const { check(hull.points, kLength); }
   void check_shape(const MeshShape& mesh) const { check(mesh.scale, kDimensionless); }
 
-  void check_shape(const PlaneDefinition& plane) const {
-    check(plane.point, kLength);
-    check_direction(plane.normal);
-  }
-  void check_shape(const DiskDefinition& disk) const {
-    check(disk.center, kLength);
+  void check_shape(const PlaneShape& plane) const { check_direction(plane.normal); }
+  void check_shape(const DiskShape& disk) const {
     check_direction(disk.normal);
     check(disk.radius, kLength);
   }
-  void check_shape(const RectangleDefinition& rectangle) const {
-    check(rectangle.center, kLength);
+  void check_shape(const RectangleShape& rectangle) const {
     check_direction(rectangle.normal);
     check_direction(rectangle.up);
     check(rectangle.width, kLength);
     check(rectangle.height, kLength);
   }
-  void check_shape(const TriangleDefinition& triangle) const {
+  void check_shape(const TriangleShape& triangle) const {
     for (const Expression* corner : {&triangle.a, &triangle.b, &triangle.c}) check(*corner, kLength);
-  }
-  void check_shape(const SphereDefinition& sphere) const {
-    check(sphere.center, kLength);
-    check(sphere.radius, kLength);
-  }
-  void check_shape(const BoxDefinition& box) const {
-    check(box.center, kLength);
-    check(box.size, kLength);
-    check_orientation(box.orientation);
   }
 
   void check_rate(const StateDefinition& state) const {

@@ -10,6 +10,7 @@
 #include <unordered_map>
 
 #include "body_maker.hpp"
+#include "extended_numbers.hpp"
 #include "law_formulas.hpp"
 #include "law_symbols.hpp"
 #include "partition.hpp"
@@ -62,6 +63,7 @@ class WorldBuilder {
     for (const ExactOrientation& closed_form : scene_.exact_orientations) compile_exact_orientation(closed_form);
     for (const World::ClosedRotation& closed_form : world_.exact_rotations) check_exact_rotation(closed_form);
     check_units(scene_);
+    if (world_.method->carries_extended) world_.extended = extended_numbers(scene_, world_, parameters_.symbols);
     return std::move(world_);
   }
 

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "instant.hpp"
+#include "trajet/math/polynomial.hpp"
 #include "trajet/sim/state_at.hpp"
 
 namespace trajet {
@@ -22,7 +23,7 @@ Course::Course(const World& world, int group)
       free_system_(std::make_unique<ProgramSystem>(this->group().law)),
       orientations_(world, group),
       closed_rotations_(world, group),
-      error_(static_cast<int>(this->group().start.size())) {
+      error_(static_cast<int>(this->group().start.size()), world.method->carries_extended ? 0x1p-64 : kUnitRoundoff) {
   for (const int event : this->group().events) {
     const World::Event& definition = world.events[static_cast<std::size_t>(event)];
     watches_.push_back({Crossing::Kind::event, event, EventWatch(definition.when, definition.direction)});
@@ -75,6 +76,8 @@ void Course::begin(double t, const Eigen::VectorXd& q, const Instant* instant) {
     // orientations were put right in double precision
     const auto is_right = (extended->cast<double>().array() == end_state_.array());
     stepper_->start_extended(t, is_right.select(*extended, end_state_.cast<long double>()));
+  } else if (instant == nullptr && world_.extended) {
+    stepper_->start_extended(t, world_.extended->starts[static_cast<std::size_t>(group_)]);
   } else {
     stepper_->start(t, end_state_);
   }

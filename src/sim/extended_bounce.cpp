@@ -16,14 +16,16 @@ struct Gap {
   RealVector normal;
 };
 
-/// `normal`: of the contact to double precision, towards the body.
+/// The gap of a sphere, of which the centre of a body of that radius is at x. `normal`: to double precision.
+Gap gap_of(const World::ExtendedNumbers::Sphere& sphere, const Vector3& normal, const RealVector& x, Real radius) {
+  const RealVector arm = x - sphere.center;
+  const Real distance = arm.norm();
+  const Real side = arm.cast<double>().dot(normal) < 0.0 ? Real(-1) : Real(1);
+  return {side * (distance - sphere.radius) - radius, side / distance * arm};
+}
+
+/// Of any other shape, touched at `point` with that normal.
 Gap gap_of(const Shape& shape, const Vector3& point, const Vector3& normal, const RealVector& x, Real radius) {
-  if (const auto* sphere = std::get_if<Sphere>(&shape)) {
-    const RealVector arm = x - sphere->center.cast<Real>();
-    const Real distance = arm.norm();
-    const Real side = arm.cast<double>().dot(normal) < 0.0 ? Real(-1) : Real(1);
-    return {side * (distance - sphere->radius) - radius, side / distance * arm};
-  }
   if (radius > Real(0)) {
     const RealVector arm = x - std::visit([&](const auto& s) { return closest_point(s, x); }, shape);
     const Real distance = arm.norm();
@@ -42,7 +44,8 @@ void bounce_extended(const World& world, const Pair& pair, Instant& instant) {
   const World::Obstacle& obstacle = world.obstacles[static_cast<std::size_t>(pair.id.obstacle)];
   const Course& course = instant.course();
   const BodySlice slice = body.slice();
-  const Real radius = bounding_radius(body.solid);
+  const Real radius = world.extended->radii[static_cast<std::size_t>(pair.id.body)];
+  const auto sphere = world.extended->spheres.find(pair.id.obstacle);
   const Real nominal = Real(instant.time()) - Real(course.segment().t0());
   const auto state_at = [&](Real tau) { return course.extended_state(tau); };
   auto q = state_at(nominal);
@@ -53,7 +56,9 @@ void bounce_extended(const World& world, const Pair& pair, Instant& instant) {
   constexpr int kSteps = 4;  // Newton's method doubles the digits, of which fifteen are right
   for (int i = 0; i < kSteps; ++i) {
     const RealVector x = slice.position(*q);
-    gap = gap_of(obstacle.shape, pair.contact.point, pair.contact.normal, x, radius);
+    const Vector3& normal = pair.contact.normal;
+    gap = sphere != world.extended->spheres.end() ? gap_of(sphere->second, normal, x, radius)
+                                                  : gap_of(obstacle.shape, pair.contact.point, normal, x, radius);
     const Real approach = gap.normal.dot(RealVector(slice.velocity(*q)));
     if (!(approach < Real(0))) return;
     tau -= gap.value / approach;

@@ -123,11 +123,12 @@ class TaylorStepper {
     segment = segment_;
     const double h = std::abs(segment_.duration());
     for (int i = 0; i < segment_.dimension(); ++i) {
-      // the last term bounds the first one left out; each of the others is rounded
+      // the last term bounds the first one left out; each of the others is rounded, in the precision of the state
       double magnitude = 0.0;
       for (int k = order_; k >= 0; --k) magnitude = magnitude * h + std::abs(segment_.coefficients()(i, k));
       const double last_term = exact_ ? 0.0 : std::abs(segment_.coefficients()(i, order_)) * std::pow(h, order_);
-      segment.error_bound()[i] = last_term + 2.0 * std::numeric_limits<double>::epsilon() * magnitude;
+      constexpr double kEpsilon = static_cast<double>(std::numeric_limits<Number>::epsilon());
+      segment.error_bound()[i] = last_term + 2.0 * kEpsilon * magnitude;
     }
   }
 

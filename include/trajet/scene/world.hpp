@@ -127,6 +127,18 @@ struct World {
     std::optional<AngularVelocity> angular_velocity{};
   };
 
+  /// What the scene's numbers are in extended precision, where the method carries the state so: a start of 0.1 or a
+  /// radius of 1/3 is none that doubles have.
+  struct ExtendedNumbers {
+    struct Sphere {
+      Vector3T<long double> center;
+      long double radius;
+    };
+    std::vector<Eigen::VectorX<long double>> starts;  ///< of each group
+    std::vector<long double> radii;                   ///< of each body
+    std::map<int, Sphere> spheres;                    ///< of the obstacles that are spheres
+  };
+
   std::string scene;  ///< file name
   std::string title;
   double start = 0.0;   ///< s
@@ -146,6 +158,7 @@ struct World {
   std::vector<Group> groups;
   std::vector<ClosedForm> exact;
   std::vector<ClosedRotation> exact_rotations;
+  std::optional<ExtendedNumbers> extended{};
 };
 
 /// Gives a scene its numbers. Throws InputError that points at the place.
