@@ -83,7 +83,13 @@ export class CameraRig {
    * Looks at a scene as its shape asks for: from the side, but turned towards its end as far as that fills the picture.
    * `points`: what is to be seen if arrows are so long, in the drawing; `side`, `end`: horizontal, unit.
    */
-  frame(points: (arrow: number) => THREE.Vector3[], middle: THREE.Vector3, side: THREE.Vector3, end: THREE.Vector3, arrowPixels: number): void {
+  frame(
+    points: (arrow: number) => THREE.Vector3[],
+    middle: THREE.Vector3,
+    side: THREE.Vector3,
+    end: THREE.Vector3,
+    arrowPixels: number,
+  ): void {
     const { horizontal, vertical } = this.halfAngles;
     const inside = { horizontal: horizontal / kMargin, vertical: vertical / kMargin };
     let best = { score: -Infinity, away: side, target: middle, distance: 1 };
@@ -102,7 +108,11 @@ export class CameraRig {
   }
 
   /** How much of the picture is in the rectangle about these points. */
-  private filled(points: readonly THREE.Vector3[], away: THREE.Vector3, at: { target: THREE.Vector3; distance: number }): number {
+  private filled(
+    points: readonly THREE.Vector3[],
+    away: THREE.Vector3,
+    at: { target: THREE.Vector3; distance: number },
+  ): number {
     const camera = this.camera.clone();
     camera.position.copy(at.target).addScaledVector(away, at.distance);
     camera.lookAt(at.target);

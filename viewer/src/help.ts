@@ -13,6 +13,10 @@ const kKeys: [string, string][] = [
   ["D", "light or dark"],
 ];
 
+const kPointer =
+  "Drag the picture to turn it, scroll to zoom; rest on a body or an impact to read what it is, click to choose it. " +
+  "Rest on a plot to see that time, click to go there, drag to zoom, double-click to see all.";
+
 export function helpDialog(): HTMLDialogElement {
   const list = element("dl");
   for (const [keys, meaning] of kKeys) list.append(element("dt", {}, keys), element("dd", {}, meaning));
@@ -21,8 +25,7 @@ export function helpDialog(): HTMLDialogElement {
     { "aria-label": "Keys" },
     element("h2", {}, "Keys"),
     list,
-    element("p", {}, "Drag the picture to turn it, scroll to zoom; rest on a body or an impact to read what it is, click to choose it. " +
-      "Rest on a plot to see that time, click to go there, drag to zoom, double-click to see all."),
+    element("p", {}, kPointer),
     element("form", { method: "dialog" }, element("button", {}, "Close")),
   );
 }

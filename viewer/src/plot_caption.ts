@@ -52,7 +52,8 @@ export class PlotCaption {
   /** A line as in the plot, its name, and the value of `curve`. */
   private key(text: string, color: string, dash: number[] | undefined, curve: Curve | null): HTMLElement {
     const item = element("span", { class: "curve" });
-    item.innerHTML = `<svg viewBox="0 0 18 4" aria-hidden="true"><path d="M0 2H18" stroke="${color}" stroke-dasharray="${dash ?? ""}"/></svg>`;
+    const line = `<path d="M0 2H18" stroke="${color}" stroke-dasharray="${dash ?? ""}"/>`;
+    item.innerHTML = `<svg viewBox="0 0 18 4" aria-hidden="true">${line}</svg>`;
     item.append(element("span", { class: "name" }, text));
     if (curve) item.append(this.output(curve));
     return item;

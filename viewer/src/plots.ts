@@ -21,7 +21,9 @@ interface Plot {
   plot: uPlot;
 }
 
-/** A stack of plots in step with the timeline. `hover` is told the time that the pointer rests on, and null when it leaves. */
+/**
+ * A stack of plots in step with the timeline. `hover` is told the time that the pointer rests on, and null when it leaves.
+ */
 export class Plots {
   private plots: Plot[] = [];
   private from: number;

@@ -10,7 +10,11 @@ export interface Target {
 const kClickPixels = 4;
 
 /** Tells what the pointer rests on in the picture, and chooses it at a click. `find`: what is at a place, px. */
-export function watchPointer(container: HTMLElement, canvas: HTMLElement, find: (x: number, y: number) => Target | null): void {
+export function watchPointer(
+  container: HTMLElement,
+  canvas: HTMLElement,
+  find: (x: number, y: number) => Target | null,
+): void {
   const tip = element("div", { class: "tip", hidden: true });
   container.append(tip);
   let down: [number, number] | null = null;

@@ -72,17 +72,13 @@ export function heightScale(grid: Grid, isAlongX: boolean, bottom: number, top: 
   const at = (z: number): THREE.Vector3 => foot.clone().setZ(foot.z + (z - bottom) * toView);
   const tick = (isAlongX ? new THREE.Vector3(0, -1, 0) : new THREE.Vector3(-1, 0, 0)).multiplyScalar(0.2 * spacing * toView);
   const lines = [at(bottom), at(top)];
-  const labels: LabelSpec[] = [];
+  const labels: LabelSpec[] = [
+    { at: at(top), text: "z [m]", className: "label-scale", priority: 1.5, side: "above" },
+  ];
   for (let i = first; i <= last; ++i) {
     const place = at(i * step);
     lines.push(place, place.clone().add(tick));
-    labels.push({
-      at: place,
-      text: textOf(i * step, i === last, "z"),
-      className: "label-scale",
-      priority: i === last ? 1.5 : 0,
-      side: i === last ? "above" : "left",
-    });
+    labels.push({ at: place, text: number(i * step, 6), className: "label-scale", priority: 0, side: "left" });
   }
   return { lines, labels, top: at(top) };
 }

@@ -24,7 +24,7 @@ const kPointReach = 0.002 * kViewSize;
 /** How far from a body that is followed the camera is, in its reach, if the whole scene is farther. */
 const kFollowReaches = 14;
 /** Of more bodies only the chosen one has arrows, axes and a trail, and each is drawn with less detail. */
-const kManyBodies = 12;
+const kManyBodies = 8;
 const kBodiesInDetail = 50;
 /** px around the pointer in which something is pointed at. */
 const kPointerPixels = 9;

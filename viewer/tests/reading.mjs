@@ -35,6 +35,10 @@ test("the line at the time is where the time is, after a zoom and at the last in
   const end = await page.evaluate(() => window.trajet.clock.end);
   await page.evaluate((t) => window.trajet.seek(t), 0.3 * end);
   assert.ok(Math.abs((await lineAt()) - 0.3) < 0.01);
+  // with nothing else to draw
+  await page.evaluate((t) => window.trajet.plots.zoom(0, 0.6 * t), end);
+  assert.ok(Math.abs((await lineAt()) - 0.5) < 0.01, `${await lineAt()}`);
+  await page.evaluate((t) => window.trajet.plots.zoom(0, t), end);
   await page.mouse.move(box.x + 0.2 * box.width, box.y + 20);
   await page.mouse.down();
   await page.mouse.move(box.x + 0.6 * box.width, box.y + 20, { steps: 5 });
@@ -143,7 +147,7 @@ test("the axes have names, in the plane and in height", async () => {
       .filter((each) => each.style.visibility === "visible")
       .map((each) => each.textContent),
   );
-  for (const name of ["x", "y", "z"]) assert.ok(shown.some((text) => text.startsWith(`${name} = `)), `${name}: ${shown}`);
+  for (const name of ["x = ", "y = ", "z [m]"]) assert.ok(shown.some((text) => text.startsWith(name)), `${name}: ${shown}`);
   assert.deepEqual(await page.locator(".triad text").allTextContents(), ["x", "y", "z"]);
   await context.close();
 });
