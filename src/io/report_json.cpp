@@ -93,6 +93,7 @@ std::string report_json(const RunResult& result) {
   json["statistics"] = {{"steps", result.statistics.steps},
                         {"rejected_steps", result.statistics.rejected_steps},
                         {"law_evaluations", result.statistics.law_evaluations},
+                        {"contact_searches", result.statistics.contact_searches},
                         {"wall_seconds", result.statistics.wall_seconds}};
   if (result.statistics.proposed_step > 0.0) json["statistics"]["proposed_step"] = result.statistics.proposed_step;
   return detail::json_text(json);

@@ -49,15 +49,16 @@ Pair& Encounters::find_or_add(int body, int obstacle, double t) {
 }
 
 ContactResult Encounters::first_contact_until(const Pair& pair, const ContactMemory& memory, const Course& course,
-                                              double from, double to) const {
+                                              double from, double to) {
   if (pair.is_lasting) return {};
+  ++searches_;
   const World::Body& body = world_.bodies[static_cast<std::size_t>(pair.id.body)];
   const World::Obstacle& obstacle = world_.obstacles[static_cast<std::size_t>(pair.id.obstacle)];
   const PointPath path(course.segment(), body.offset);
   return first_contact(obstacle.shape, {path, bounding_radius(body.solid), from, to, world_.locate}, memory);
 }
 
-void Encounters::search_whole(Pair& pair, const Course& course) const {
+void Encounters::search_whole(Pair& pair, const Course& course) {
   const double end = course.segment().t1();
   pair.contact = first_contact_until(pair, pair.memory, course, pair.known_at, end);
   pair.ahead = pair.contact.memory;

@@ -61,6 +61,9 @@ class Encounters {
   /// The body was moved elsewhere.
   void forget(int body);
 
+  /// How many pairs were searched so far.
+  long searches() const { return searches_; }
+
  private:
   /// The pairs of one body.
   struct Around {
@@ -72,9 +75,9 @@ class Encounters {
   Around& around(int body) { return bodies_[static_cast<std::size_t>(body)]; }
   Pair& find_or_add(int body, int obstacle, double t);
   ContactResult first_contact_until(const Pair& pair, const ContactMemory& memory, const Course& course, double from,
-                                    double to) const;
+                                    double to);
   /// Searches a pair on the whole Segment.
-  void search_whole(Pair& pair, const Course& course) const;
+  void search_whole(Pair& pair, const Course& course);
   /// The bounded obstacles near a body's path between two times, if they are few.
   std::optional<std::vector<int>> near(const Aabb& swept) const;
   Aabb swept(int body, const Course& course, double from, double to) const;
@@ -84,6 +87,7 @@ class Encounters {
   std::vector<int> always_;   // obstacles that are searched whatever is near
   std::vector<int> in_tree_;  // the others, in the order of the tree
   std::optional<BoxTree> tree_;
+  long searches_ = 0;
 };
 
 }  // namespace trajet

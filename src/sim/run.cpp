@@ -41,7 +41,7 @@ bool Run::step() { return state_->loop.step(); }
 double Run::next_time() const { return state_->loop.next_time(); }
 
 RunResult Run::result() {
-  RunResult result = state_->loop.recorder().result();
+  RunResult result = state_->loop.result();
   result.statistics.wall_seconds = state_->wall_seconds();
   return result;
 }

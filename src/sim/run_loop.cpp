@@ -113,6 +113,12 @@ void RunLoop::fail_if_blown_up() {
   }
 }
 
+RunResult RunLoop::result() {
+  RunResult result = recorder_.result();
+  result.statistics.contact_searches = encounters_.searches();
+  return result;
+}
+
 void RunLoop::enqueue(int index) { agenda_.add(direction_ * (next(index).time - world_.start), index); }
 
 void RunLoop::advance(int index) {

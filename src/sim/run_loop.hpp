@@ -26,7 +26,8 @@ class RunLoop {
   bool step();
   bool is_over() const { return !running_; }
   double next_time() const;
-  Recorder& recorder() { return recorder_; }
+  /// Ends the run where it is. Once.
+  RunResult result();
 
  private:
   /// What happens next to a course: a contact, or a crossing of its own.

@@ -68,8 +68,9 @@ TEST(Run, WritesSummaryReportAndSamples) {
   EXPECT_NEAR(impact["time"], 180 / (500 * std::cos(theta)), 1e-15);
   EXPECT_EQ(report["end_time"], impact["time"]);
   const Json& final = report["final"][0];
-  EXPECT_EQ(keys(final), (std::vector<std::string>{"body", "position", "velocity", "acceleration", "orientation",
-                                                   "rotation_matrix", "angular_velocity", "points"}));
+  EXPECT_EQ(keys(final),
+            (std::vector<std::string>{"body", "position", "velocity", "acceleration", "orientation", "rotation_matrix",
+                                      "angular_velocity", "points", "position_error_bound", "velocity_error_bound"}));
   EXPECT_EQ(final["acceleration"], Json({0.0, 0.0, -9.8}));
   EXPECT_EQ(keys(report["statistics"]),
             (std::vector<std::string>{"steps", "rejected_steps", "law_evaluations", "wall_seconds"}));

@@ -79,6 +79,7 @@ struct Sample {
 };
 
 struct RunStatistics : StepStatistics {
+  long contact_searches = 0;  ///< of one pair on a Segment or a part of one
   double wall_seconds = 0.0;
 };
 
