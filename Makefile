@@ -23,8 +23,8 @@ demo: setup build ## set up, build, and fly the rifle shot; its files go to buil
 	@mkdir -p $(DEMO)
 	build/release/trajet run examples/notes/rifle_shot.toml --json $(DEMO)/rifle_shot.json --csv $(DEMO)/rifle_shot.csv
 
-docs: setup build ## remake the gallery and the notes of docs/: outputs and pictures
-	@for page in docs/notes/*.md; do python3 -B tests/docs/readme.py refresh $$page build/release/trajet; done
+docs: setup build ## remake the pages and the gallery of docs/: outputs and pictures
+	@for page in README.md docs/first_scene.md docs/cookbook.md docs/notes/*.md; do python3 -B tests/docs/readme.py refresh $$page build/release/trajet; done
 	@scripts/setup browser
 	@node viewer/tools/gallery.mjs build/release/trajet $$(command -v chromium)
 

@@ -24,7 +24,7 @@ struct Shot {
   double angle_rad;
   bool hits_target;
 
-  /// The closed form of the course (F112).
+  /// The closed form of the course.
   double exact_time() const {
     const double up = kSpeed * std::sin(angle_rad);
     if (hits_target) return kTargetDistance / (kSpeed * std::cos(angle_rad));

@@ -4,7 +4,7 @@
 
 namespace trajet::problems {
 
-/// Uniform acceleration a = (0, 0, 1) from v = (2, 1, 0), r = (0, 0, 1): F18 of the course. State: (v, r), m/s and m.
+/// Uniform acceleration a = (0, 0, 1) from v = (2, 1, 0), r = (0, 0, 1). State: (v, r), m/s and m.
 struct ConstantAcceleration {
   static constexpr int kDimension = 6;
   using State = Eigen::Matrix<double, kDimension, 1>;
@@ -23,7 +23,7 @@ struct ConstantAcceleration {
   static State exact(double t) { return (State() << 2, 1, t, 2 * t, t, 1 + t * t / 2).finished(); }
 };
 
-/// The same under a = (0, 0, t): F21 of the course.
+/// The same under a = (0, 0, t).
 struct LinearAcceleration {
   static constexpr int kDimension = 6;
   using State = Eigen::Matrix<double, kDimension, 1>;

@@ -5,7 +5,7 @@
 
 namespace trajet::problems {
 
-/// P1: dv_i/dt = -v_i^2 / k_i with a different k_i along each axis (F44 of the course). State: (v, r), m/s and m.
+/// P1: dv_i/dt = -v_i^2 / k_i with a different k_i along each axis. State: (v, r), m/s and m.
 struct Drag {
   static constexpr int kDimension = 6;
   using State = Eigen::Matrix<double, kDimension, 1>;

@@ -11,6 +11,7 @@
 #include "trajet/io/compare_report.hpp"
 #include "trajet/io/output_file.hpp"
 #include "trajet/io/scene_file.hpp"
+#include "trajet/sim/observer_list.hpp"
 #include "trajet/study/compare.hpp"
 #include "trajet/viz/compare_figure.hpp"
 
@@ -22,7 +23,8 @@ namespace {
 /// figure, if there is one.
 class CompareMonitor : public CompareObserver {
  public:
-  explicit CompareMonitor(bool keeps_motions) : keeps_motions_(keeps_motions), monitor_(consumers()) {}
+  explicit CompareMonitor(bool keeps_motions)
+      : keeps_motions_(keeps_motions), row_observers_({keeps_motions ? &record_ : nullptr, &monitor_}) {}
 
   RunObserver* begin_reference(const std::string& method) override {
     monitor_.set_label("reference by " + method);
@@ -33,7 +35,7 @@ class CompareMonitor : public CompareObserver {
     row_ = index;
     motions_.resize(count);
     monitor_.set_label(fmt::format("{} ({} of {})", row.method, index + 1, count));
-    return &monitor_;
+    return &row_observers_;
   }
 
   /// Removes the line of progress.
@@ -46,10 +48,6 @@ class CompareMonitor : public CompareObserver {
   bool has_motions() const { return row_.has_value(); }
 
  private:
-  std::vector<RunObserver*> consumers() {
-    return keeps_motions_ ? std::vector<RunObserver*>{&record_} : std::vector<RunObserver*>{};
-  }
-
   /// That of the row that was run last.
   void keep_motion() {
     if (!keeps_motions_ || !row_) return;
@@ -59,6 +57,7 @@ class CompareMonitor : public CompareObserver {
   bool keeps_motions_;
   MotionRecord record_;
   RunMonitor monitor_;
+  ObserverList row_observers_;
   std::optional<std::size_t> row_;
   std::vector<RowMotion> motions_;
 };
@@ -97,15 +96,23 @@ std::string name(const ComparisonRow& row) {
   return row.orientation.empty() ? row.method : row.method + ", " + row.orientation;
 }
 
+std::string setting(const ComparisonRow& row) {
+  return row.rtol ? fmt::format("rtol {:g}", *row.rtol) : fmt::format("step {} s", cell(row.step));
+}
+
+/// The rows without result, where nobody sees the table.
+void warn_of_failures(const Comparison& comparison) {
+  for (const ComparisonRow& row : comparison.rows)
+    if (!row.succeeded()) fmt::print(stderr, "warning: {}, {}: no result: {}\n", name(row), setting(row), row.failure);
+}
+
 std::string table(const Comparison& comparison, bool color) {
   TextTable table{{"method", "step [s]", "rtol", "error: end", "at samples", "at nodes", "position: end", "at samples",
                    "at nodes", "evaluations", "steps", "rejected", "time [ms]"}};
   std::string failures;
   for (const ComparisonRow& row : comparison.rows) {
-    const std::string setting =
-        row.rtol ? fmt::format("rtol {:g}", *row.rtol) : fmt::format("step {} s", cell(row.step));
     if (!row.succeeded()) {
-      failures += fmt::format("  {}, {}: {}\n", styled(name(row), Style::red, color), setting, row.failure);
+      failures += fmt::format("  {}, {}: {}\n", styled(name(row), Style::red, color), setting(row), row.failure);
       continue;
     }
     table.push_back({name(row), cell(row.step), cell(row.rtol), cell(row.at_end.state), cell(row.at_samples.state),
@@ -194,6 +201,8 @@ int compare_command(const CompareArguments& arguments) {
     if (!comparison.title.empty()) out.write(styled(comparison.title, Style::bold, color) + "\n");
     out.write(reference_line(comparison) + table(comparison, color) + notes(comparison) + rotation_table(comparison));
     out.finish();
+  } else {
+    warn_of_failures(comparison);
   }
   if (plot && monitor.has_motions()) {
     plot->open();

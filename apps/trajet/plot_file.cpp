@@ -17,7 +17,7 @@ FigureFormat format_of(const std::string& path) {
 PlotFile::PlotFile(const std::string& path) : path_(path), format_(format_of(path)) { require_gnuplot(); }
 
 void PlotFile::write(const Figure& figure) {
-  file_->write(draw(figure.script, format_, figure.size));
+  file_->write(draw(figure, format_));
   file_->finish();
 }
 

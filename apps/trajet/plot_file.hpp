@@ -4,7 +4,7 @@
 #include <string>
 
 #include "trajet/io/output_file.hpp"
-#include "trajet/viz/figure.hpp"
+#include "trajet/viz/gnuplot.hpp"
 
 namespace trajet {
 

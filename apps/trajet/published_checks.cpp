@@ -65,7 +65,7 @@ std::string arenstorf() {
 }  // namespace
 
 std::span<const PublishedCheck> published_checks() {
-  constexpr const char* kCourse = "PHS4700, the code of F45-F47 repaired";
+  constexpr const char* kCourse = "PHS4700, its code repaired";
   constexpr const char* kDetest = "DETEST (Hull, Enright, Fellen, Sedgwick 1972)";
   constexpr const char* kBallode = "MATLAB, ballode";
   constexpr const char* kNasa = "NASA TM-2015-218675, case 2";
@@ -88,8 +88,8 @@ std::span<const PublishedCheck> published_checks() {
       {kCourse, "drag in 3-D", kDrag, "nodes euler 40", 0.0702641221366347, 5e-15},
       {kCourse, "drag in 3-D", kDrag, "nodes rk4 10", 0.0542477931734899, 5e-15},
       {kCourse, "drag in 3-D", kDrag, "nodes rk4 40", 7.53983131197348e-5, 5e-15},
-      {"PHS4700, erratum A1: difference-linear", "a = (0, 0, t)", growing("2"), "final particle.z", 171.0, 1e-12},
-      {"PHS4700, erratum A1: difference-linear", "a = (0, 0, t)", growing("0.5"), "final particle.z", 167.875, 1e-12},
+      {"PHS4700, first formula repaired", "a = (0, 0, t)", growing("2"), "final particle.z", 171.0, 1e-12},
+      {"PHS4700, first formula repaired", "a = (0, 0, t)", growing("0.5"), "final particle.z", 167.875, 1e-12},
       {kDetest, "A1", states("20", {{"Y", "1", "-Y"}}), "final Y", 2.061153353012535e-9, 1e-15},
       {kDetest, "A2", states("20", {{"Y", "1", "-Y^3/2"}}), "final Y", 2.182178902359887e-1, 1e-12},
       {kDetest, "A3", states("20", {{"Y", "1", "Y*cos(t)"}}), "final Y", 2.491650271850414, 1e-12},

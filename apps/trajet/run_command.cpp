@@ -18,6 +18,7 @@
 #include "trajet/io/report_json.hpp"
 #include "trajet/io/scene_file.hpp"
 #include "trajet/scene/world.hpp"
+#include "trajet/sim/observer_list.hpp"
 #include "trajet/sim/run.hpp"
 #include "trajet/viz/page.hpp"
 #include "trajet/viz/run_figure.hpp"
@@ -82,11 +83,10 @@ int run_command(const RunArguments& arguments) {
   if (plot) plot->open();
 
   const RunResult result = [&] {
-    std::vector<RunObserver*> consumers;
-    if (csv_writer) consumers.push_back(&*csv_writer);
-    if (html || glb || plot) consumers.push_back(&motion);
-    RunMonitor monitor(std::move(consumers));
-    return run(world, &monitor);
+    RunMonitor monitor;
+    const bool keeps_motion = html || glb || plot;
+    ObserverList observers({csv_writer ? &*csv_writer : nullptr, keeps_motion ? &motion : nullptr, &monitor});
+    return run(world, &observers);
   }();
 
   if (csv) csv->finish();
@@ -101,7 +101,7 @@ int run_command(const RunArguments& arguments) {
     html->finish();
   }
   if (glb) {
-    glb->write(gltf_binary(motion, result, arguments.fps));
+    write_gltf(motion, result, arguments.fps, [&](std::string_view part) { glb->write(part); });
     glb->finish();
   }
   if (plot) plot->write(run_figure(result, motion));

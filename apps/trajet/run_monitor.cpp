@@ -45,8 +45,7 @@ void set_handler(void (*handler)(int), int flags) {
 
 }  // namespace
 
-RunMonitor::RunMonitor(std::vector<RunObserver*> consumers)
-    : consumers_(std::move(consumers)), shows_progress_(is_terminal(stderr)) {
+RunMonitor::RunMonitor() : shows_progress_(is_terminal(stderr)) {
   set_handler(note_interrupt, static_cast<int>(SA_RESETHAND));
 }
 
@@ -63,16 +62,10 @@ void RunMonitor::begin(const World& world) {
   steps_ = 0;
   began_ = Clock::now();
   next_show_ = began_ + kFirstShow;
-  for (RunObserver* each : consumers_) each->begin(world);
 }
 
 void RunMonitor::motion(const MotionPiece& piece) {
   if (piece.ends_step) ++steps_;
-  for (RunObserver* each : consumers_) each->motion(piece);
-}
-
-void RunMonitor::sample(const Sample& sample) {
-  for (RunObserver* each : consumers_) each->sample(sample);
 }
 
 bool RunMonitor::interrupted(double time) {

@@ -3,13 +3,12 @@
 #include <chrono>
 #include <string>
 #include <utility>
-#include <vector>
 
-#include "trajet/sim/run_result.hpp"
+#include "trajet/sim/run_observer.hpp"
 
 namespace trajet {
 
-/// Follows a run for the program: passes it on to its consumers, shows progress, and ends the run on Ctrl-C
+/// Follows a run for the program: shows progress, and ends the run on Ctrl-C
 /// and on the signals SIGTERM and SIGHUP.
 ///
 /// Progress goes to standard error, only if it is a terminal, and only once a run has taken half a second: how far it
@@ -17,8 +16,8 @@ namespace trajet {
 class RunMonitor : public RunObserver {
  public:
   /// From now on Ctrl-C, SIGTERM and SIGHUP end the run instead of the program; a second one ends the program. A SIGHUP
-  /// that `nohup` has switched off stays so. The consumers outlive the monitor.
-  explicit RunMonitor(std::vector<RunObserver*> consumers = {});
+  /// that `nohup` has switched off stays so.
+  RunMonitor();
   ~RunMonitor() override;
   RunMonitor(const RunMonitor&) = delete;
   RunMonitor& operator=(const RunMonitor&) = delete;
@@ -28,9 +27,9 @@ class RunMonitor : public RunObserver {
   /// What stands before the progress of the runs that follow: "rk4, step 0.1 s (2 of 6)".
   void set_label(std::string label) { label_ = std::move(label); }
 
+  RunWishes wishes() const override { return {.motion = shows_progress_}; }
   void begin(const World& world) override;
   void motion(const MotionPiece& piece) override;
-  void sample(const Sample& sample) override;
   bool interrupted(double time) override;
 
  private:
@@ -38,7 +37,6 @@ class RunMonitor : public RunObserver {
 
   void show(double time, Clock::time_point now);
 
-  std::vector<RunObserver*> consumers_;
   bool shows_progress_;
   bool has_shown_ = false;
   std::string label_;

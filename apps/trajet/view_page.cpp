@@ -11,6 +11,7 @@
 #include "run_monitor.hpp"
 #include "trajet/io/report_json.hpp"
 #include "trajet/io/scene_file.hpp"
+#include "trajet/sim/observer_list.hpp"
 #include "trajet/sim/run.hpp"
 
 namespace trajet {
@@ -24,8 +25,9 @@ ViewPage make_view_page(const ViewArguments& arguments, const PageOptions& optio
   std::vector<PageRun> runs;
   const auto add_run = [&](const Scene& variant) {
     MotionRecord& motion = motions.emplace_back();
-    RunMonitor monitor({&motion});
-    const RunResult result = run(variant, &monitor);
+    RunMonitor monitor;
+    ObserverList observers({&motion, &monitor});
+    const RunResult result = run(variant, &observers);
     if (result.status == RunStatus::failed) fmt::print(stderr, "error: {}: {}\n", result.method, result.failure);
     runs.push_back({motion, report_json(result)});
     return result.status;

@@ -5,53 +5,48 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <sstream>
 
 #include "gltf_keys.hpp"
+#include "gltf_records.hpp"
 #include "gltf_shapes.hpp"
 #include "trajet/error.hpp"
-#include "trajet/io/names.hpp"
 #include "trajet/version.hpp"
 
 namespace trajet {
 
 namespace {
 
+using detail::AnimationKeys;
 using detail::GltfMesh;
 using detail::Pose;
 using detail::Tint;
 using Value = tinygltf::Value;
-
-Value value(const Vector3& v) { return Value(Value::Array{Value(v.x()), Value(v.y()), Value(v.z())}); }
-
-Value value(const std::vector<Impact>& impacts) {
-  Value::Array array;
-  for (const Impact& impact : impacts)
-    array.emplace_back(Value::Object{{"time", Value(impact.time)},
-                                     {"body", Value(impact.body)},
-                                     {"with", Value(impact.with)},
-                                     {"kind", Value(std::string(name(impact.kind)))},
-                                     {"point", value(impact.point)},
-                                     {"normal", value(impact.normal)},
-                                     {"position", value(impact.position)},
-                                     {"velocity_before", value(impact.velocity_before)},
-                                     {"velocity_after", value(impact.velocity_after)}});
-  return Value(std::move(array));
-}
+using LinearColor = std::array<double, 3>;
 
 /// Colours of bodies, linear: those of [OkabeIto2008].
-constexpr std::array<std::array<double, 3>, 6> kBodyColors{{{0.0, 0.168, 0.445},
-                                                            {0.791, 0.347, 0.0},
-                                                            {0.604, 0.191, 0.386},
-                                                            {0.0, 0.342, 0.171},
-                                                            {0.665, 0.112, 0.0},
-                                                            {0.093, 0.456, 0.815}}};
-constexpr std::array<double, 3> kObstacleColor{0.35, 0.38, 0.42};
-constexpr std::array<double, 3> kLightColor{0.9, 0.9, 0.87};
-constexpr std::array<double, 3> kDarkColor{0.012, 0.012, 0.016};
+constexpr std::array<LinearColor, 6> kBodyColors{{{0.0, 0.168, 0.445},
+                                                  {0.791, 0.347, 0.0},
+                                                  {0.604, 0.191, 0.386},
+                                                  {0.0, 0.342, 0.171},
+                                                  {0.665, 0.112, 0.0},
+                                                  {0.093, 0.456, 0.815}}};
+constexpr LinearColor kObstacleColor{0.35, 0.38, 0.42};
+constexpr LinearColor kLightColor{0.9, 0.9, 0.87};
+constexpr LinearColor kDarkColor{0.012, 0.012, 0.016};
 
-std::array<double, 3> tinted(const std::array<double, 3>& own, Tint tint) {
+/// What glTF calls a colour: the light itself, of which sRGB tells how bright it seems.
+LinearColor linear(const RgbColor& color) {
+  const auto part = [](std::uint8_t value) {
+    const double c = value / 255.0;
+    return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
+  };
+  return {part(color.red), part(color.green), part(color.blue)};
+}
+
+LinearColor tinted(const LinearColor& own, Tint tint) {
   switch (tint) {
     case Tint::own:
       return own;
@@ -72,7 +67,7 @@ class ModelBuilder {
     model_.buffers.emplace_back();
   }
 
-  int add_mesh(const std::string& name, const GltfMesh& data, const std::array<double, 3>& color) {
+  int add_mesh(const std::string& name, const GltfMesh& data, const LinearColor& color) {
     tinygltf::Mesh mesh;
     mesh.name = name;
     const int positions = add_floats(data.positions, TINYGLTF_TARGET_ARRAY_BUFFER);
@@ -108,21 +103,20 @@ class ModelBuilder {
 
   tinygltf::Node& node(int index) { return model_.nodes[static_cast<std::size_t>(index)]; }
 
-  void add_animation(int node, const std::map<float, Pose>& keys, bool turns) {
-    std::vector<Eigen::Matrix<float, 1, 1>> times;
-    std::vector<Eigen::Vector3f> translations;
-    std::vector<Eigen::Vector4f> rotations;
-    for (const auto& [time, pose] : keys) {
-      times.emplace_back(time);
-      translations.push_back(pose.position.cast<float>());
-      rotations.push_back(pose.q_WB.coeffs().cast<float>());  // x, y, z, w: as glTF has them
-    }
-    const int input = add_floats(times, 0);
-    add_channel(node, "translation", input, add_floats(translations, 0));
-    if (turns) add_channel(node, "rotation", input, add_floats(rotations, 0));
+  /// The frame of a node in its parent's.
+  void place(int node, const Pose& pose) {
+    this->node(node).translation = {pose.position.x(), pose.position.y(), pose.position.z()};
+    const Quaternion& q = pose.q_WB;
+    if (!q.isApprox(Quaternion::Identity())) this->node(node).rotation = {q.x(), q.y(), q.z(), q.w()};
   }
 
-  std::string write(const std::string& title) {
+  void add_animation(int node, const AnimationKeys& keys, bool turns) {
+    const int input = add_floats(keys.times, 0);
+    add_channel(node, "translation", input, add_floats(keys.positions, 0));
+    if (turns) add_channel(node, "rotation", input, add_floats(keys.rotations, 0));
+  }
+
+  std::string write(const std::string& title) && {
     tinygltf::Scene scene;
     scene.name = title;
     scene.nodes = {0};
@@ -145,7 +139,7 @@ class ModelBuilder {
     return static_cast<int>(items.size()) - 1;
   }
 
-  int add_material(const std::string& name, const std::array<double, 3>& color) {
+  int add_material(const std::string& name, const LinearColor& color) {
     tinygltf::Material material;
     material.name = name;
     material.pbrMetallicRoughness.baseColorFactor = {color[0], color[1], color[2], 1.0};
@@ -205,23 +199,25 @@ class ModelBuilder {
   tinygltf::Animation animation_;
 };
 
-}  // namespace
+/// Stands in the model for what happened in the run, which may be long: no other text of the model reads like this, as
+/// quotes within strings are escaped.
+constexpr const char* kRecordsKey = "records";
+constexpr std::string_view kRecordsMark = "\"records\":\"\"";
 
-std::string gltf_binary(const MotionRecord& motion, const RunResult& result, double fps) {
+/// The bodies with what moves them.
+void add_bodies(ModelBuilder& builder, int root, const MotionRecord& motion, const RunResult& result,
+                const detail::Extent& extent, double fps) {
   const World& world = motion.world();
-  const detail::Extent extent = detail::extent(motion);
-  ModelBuilder builder;
-  const int root = builder.add_root("world");
-  // z up to y up: -90 degrees about x, (x, y, z) -> (x, z, -y)
-  constexpr double kHalfSqrt2 = std::numbers::sqrt2 / 2.0;
-  builder.node(root).rotation = {-kHalfSqrt2, 0.0, 0.0, kHalfSqrt2};
-  builder.node(root).extras =
-      Value(Value::Object{{"start_time", Value(result.start_time)}, {"impacts", value(result.impacts)}});
+  std::map<std::string_view, std::vector<double>> impact_times;  // of each body
+  for (const Impact& impact : result.impacts) impact_times[impact.body].push_back(impact.time);
 
   for (std::size_t i = 0; i < world.bodies.size(); ++i) {
     const World::Body& body = world.bodies[i];
-    const auto keys = detail::animation_keys(motion, result, body, fps);
-    const auto& color = kBodyColors[i % kBodyColors.size()];
+    std::vector<double> jumps = std::move(impact_times[body.name]);
+    for (const EventRecord& event : result.events) jumps.push_back(event.time);
+    std::ranges::sort(jumps, {}, [&](double t) { return std::abs(t - result.start_time); });
+    const AnimationKeys keys = detail::animation_keys(motion, result, body, jumps, fps);
+    const LinearColor color = body.color ? linear(*body.color) : kBodyColors[i % kBodyColors.size()];
     const int node =
         builder.add_node(body.name, builder.add_mesh(body.name, detail::body_mesh(body, extent), color), root);
     if (!body.points.empty()) {
@@ -230,18 +226,37 @@ std::string gltf_binary(const MotionRecord& motion, const RunResult& result, dou
         builder.node(builder.add_node(body.name + "." + point.name, mesh, node)).translation = {
             point.p_B.x(), point.p_B.y(), point.p_B.z()};
     }
-    if (keys.empty()) continue;
-    const Pose& first = keys.begin()->second;
-    builder.node(node).translation = {first.position.x(), first.position.y(), first.position.z()};
-    if (!first.q_WB.isApprox(Quaternion::Identity()))
-      builder.node(node).rotation = {first.q_WB.x(), first.q_WB.y(), first.q_WB.z(), first.q_WB.w()};
+    if (keys.times.empty()) continue;
+    builder.place(node, {keys.positions.front().cast<double>(), Quaternion(keys.rotations.front().cast<double>())});
     builder.add_animation(node, keys, body.rotation.has_value());
   }
-  for (const World::Obstacle& obstacle : world.obstacles)
-    builder.add_node(obstacle.name,
-                     builder.add_mesh(obstacle.name, detail::obstacle_mesh(obstacle.shape, extent), kObstacleColor),
-                     root);
-  return builder.write(result.title);
+}
+
+}  // namespace
+
+void write_gltf(const MotionRecord& motion, const RunResult& result, double fps,
+                const std::function<void(std::string_view)>& write) {
+  const detail::Extent extent = detail::extent(motion);
+  ModelBuilder builder;
+  const int root = builder.add_root("world");
+  // z up to y up: -90 degrees about x, (x, y, z) -> (x, z, -y)
+  constexpr double kHalfSqrt2 = std::numbers::sqrt2 / 2.0;
+  builder.node(root).rotation = {-kHalfSqrt2, 0.0, 0.0, kHalfSqrt2};
+  builder.node(root).extras =
+      Value(Value::Object{{"start_time", Value(result.start_time)}, {kRecordsKey, Value(std::string())}});
+  add_bodies(builder, root, motion, result, extent, fps);
+  for (const World::Obstacle& obstacle : motion.world().obstacles) {
+    const LinearColor color = obstacle.color ? linear(*obstacle.color) : kObstacleColor;
+    const int mesh = builder.add_mesh(obstacle.name, detail::obstacle_mesh(obstacle.shape, extent), color);
+    builder.place(builder.add_node(obstacle.name, mesh, root), detail::obstacle_pose(obstacle.shape, extent));
+  }
+  detail::write_with_records(std::move(builder).write(result.title), kRecordsMark, result, write);
+}
+
+std::string gltf_binary(const MotionRecord& motion, const RunResult& result, double fps) {
+  std::string bytes;
+  write_gltf(motion, result, fps, [&](std::string_view part) { bytes += part; });
+  return bytes;
 }
 
 }  // namespace trajet

@@ -3,73 +3,187 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
+#include <optional>
 #include <stdexcept>
 
+#include "trajet/error.hpp"
 #include "trajet/io/gltf.hpp"
 
 namespace trajet::detail {
 
 namespace {
 
-Pose pose(const World::Body& body, const Segment<>& segment, double t) {
-  const auto at = [&](int component) { return segment.value(component, t); };
-  const Vector3 position(at(body.offset), at(body.offset + 1), at(body.offset + 2));
-  if (!body.rotation) return {position, body.q_WB};
-  const OrientationLayout& layout = body.rotation->layout;
-  constexpr int kMostNumbers = 9;  // a matrix
-  double orientation[kMostNumbers] = {};
-  for (int i = 0; i < layout.size(); ++i) orientation[i] = at(body.rotation->offset + i);
-  // glTF knows rotations only: what stretches is left out
-  const Matrix3 R_WB = layout.rotation(orientation);
-  return {position, Quaternion(nearest_rotation(R_WB))};
-}
+/// From one key to the next a body turns by no more than this, rad: somewhat less than a quarter of a turn, so that
+/// what its angular velocity does between the points where it is looked at does not matter.
+constexpr double kMostTurn = 0.45 * std::numbers::pi;
 
-}  // namespace
+/// A time that wants a key.
+struct Moment {
+  double t;        // s
+  float time;      // s from the start
+  bool is_before;  // a jump at t: the pose before it
+};
 
-std::map<float, Pose> animation_keys(const MotionRecord& motion, const RunResult& result, const World::Body& body,
-                                     double fps) {
-  const auto& pieces = motion.pieces(body.group);
-  std::map<float, Pose> keys;
-  if (pieces.empty()) return keys;
+/// The motion of one body.
+class BodyMotion {
+ public:
+  BodyMotion(const std::vector<MotionRecord::Piece>& pieces, const World::Body& body, double direction)
+      : pieces_(pieces), body_(body), direction_(direction) {}
+
+  // before a jump at t the piece that ends there counts, behind it the one that begins there
+  Pose before(double t) const { return pose(piece_before(t)->segment, t); }
+  Pose behind(double t) const { return pose(piece_behind(t)->segment, t); }
+
+  /// The largest angular velocity between two times, rad/s.
+  double largest_spin(double from, double to) const {
+    if (!body_.rotation) return 0.0;
+    const int w = body_.rotation->offset + body_.rotation->layout.size();
+    double largest = 0.0;
+    const auto last = piece_before(to);
+    for (auto piece = piece_behind(from); piece <= last; ++piece) {
+      const double first = later(piece->from, from), end = earlier(piece->to, to);
+      constexpr int kParts = 8;
+      for (int i = 0; i <= kParts; ++i) {
+        const double t = first + (end - first) * i / kParts;
+        const auto at = [&](int axis) { return piece->segment.value(w + axis, t); };
+        largest = std::max(largest, Vector3(at(0), at(1), at(2)).norm());
+      }
+    }
+    return largest;
+  }
+
+ private:
+  using Iterator = std::vector<MotionRecord::Piece>::const_iterator;
+
+  double later(double a, double b) const { return direction_ * (a - b) > 0.0 ? a : b; }
+  double earlier(double a, double b) const { return direction_ * (a - b) < 0.0 ? a : b; }
+
+  Iterator piece_before(double t) const {
+    const auto piece =
+        std::ranges::partition_point(pieces_, [&](const auto& each) { return direction_ * (each.to - t) < 0.0; });
+    return piece == pieces_.end() ? std::prev(piece) : piece;
+  }
+  Iterator piece_behind(double t) const {
+    const auto next =
+        std::ranges::partition_point(pieces_, [&](const auto& each) { return direction_ * (each.from - t) <= 0.0; });
+    return next == pieces_.begin() ? next : std::prev(next);
+  }
+
+  Pose pose(const Segment<>& segment, double t) const {
+    const auto at = [&](int component) { return segment.value(component, t); };
+    const Vector3 position(at(body_.offset), at(body_.offset + 1), at(body_.offset + 2));
+    if (!body_.rotation) return {position, body_.q_WB};
+    const OrientationLayout& layout = body_.rotation->layout;
+    constexpr int kMostNumbers = 9;  // a matrix
+    double orientation[kMostNumbers] = {};
+    for (int i = 0; i < layout.size(); ++i) orientation[i] = at(body_.rotation->offset + i);
+    // glTF knows rotations only: what stretches is left out
+    const Matrix3 R_WB = layout.rotation(orientation);
+    return {position, Quaternion(nearest_rotation(R_WB))};
+  }
+
+  const std::vector<MotionRecord::Piece>& pieces_;
+  const World::Body& body_;
+  double direction_;
+};
+
+/// The moments of a run of which nothing is known but its jumps: strictly increasing in single precision.
+std::vector<Moment> moments(const RunResult& result, std::span<const double> jumps, double fps) {
   const double start = result.start_time;
   const double direction = result.end_time < start ? -1.0 : 1.0;
   const double duration = std::abs(result.end_time - start);
-  // before a jump at t the piece that ends there counts, behind it the one that begins there
-  const auto pose_before = [&](double t) {
-    const auto piece =
-        std::ranges::partition_point(pieces, [&](const auto& each) { return direction * (each.to - t) < 0.0; });
-    return pose(body, piece == pieces.end() ? pieces.back().segment : piece->segment, t);
-  };
-  const auto pose_behind = [&](double t) {
-    const auto next =
-        std::ranges::partition_point(pieces, [&](const auto& each) { return direction * (each.from - t) <= 0.0; });
-    return pose(body, (next == pieces.begin() ? next : std::prev(next))->segment, t);
-  };
-
-  const auto add_jump = [&](double t) {
-    const auto time = static_cast<float>(direction * (t - start));
-    keys.insert_or_assign(time, pose_before(t));
-    if (t != result.end_time)
-      keys.insert_or_assign(std::nextafter(time, std::numeric_limits<float>::infinity()), pose_behind(t));
-  };
-  for (const Impact& impact : result.impacts)
-    if (impact.body == body.name) add_jump(impact.time);
-  for (const EventRecord& event : result.events) add_jump(event.time);
-
   if (duration * fps > kMostAnimationKeys) throw std::length_error("too many keys for an animation");
+  std::vector<Moment> all;  // of one time the last one counts
   const auto frame_count = static_cast<long>(std::floor(duration * fps));
+  all.reserve(static_cast<std::size_t>(frame_count) + 2 + 2 * jumps.size());
   for (long i = 0; i <= frame_count; ++i) {
     const double time = static_cast<double>(i) / fps;
-    keys.try_emplace(static_cast<float>(time), pose_behind(start + direction * time));
+    all.push_back({start + direction * time, static_cast<float>(time), false});
   }
-  keys.try_emplace(static_cast<float>(duration), pose_before(result.end_time));
+  all.push_back({result.end_time, static_cast<float>(duration), true});
+  for (const double t : jumps) {
+    const auto time = static_cast<float>(direction * (t - start));
+    all.push_back({t, time, true});
+    if (t != result.end_time) all.push_back({t, std::nextafter(time, std::numeric_limits<float>::infinity()), false});
+  }
+  std::ranges::stable_sort(all, {}, &Moment::time);
+  std::vector<Moment> kept;
+  kept.reserve(all.size());
+  for (const Moment& moment : all) {
+    if (!kept.empty() && kept.back().time == moment.time) kept.pop_back();
+    kept.push_back(moment);
+  }
+  return kept;
+}
 
-  const Pose* last = nullptr;
-  for (auto& [time, key] : keys) {
-    if (last != nullptr && last->q_WB.dot(key.q_WB) < 0.0) key.q_WB.coeffs() *= -1.0;
-    last = &key;
+class KeyMaker {
+ public:
+  KeyMaker(const BodyMotion& motion, const World::Body& body, double start, std::size_t count)
+      : motion_(motion), body_(body), start_(start) {
+    keys_.times.reserve(count);
+    keys_.positions.reserve(count);
+    if (body.rotation) keys_.rotations.reserve(count);
   }
-  return keys;
+
+  /// Adds the key of a moment, and what the way from the last one to it needs.
+  void add(const Moment& moment) {
+    if (last_) fill(*last_, moment);
+    add_key(moment);
+    last_ = moment;
+  }
+
+  AnimationKeys keys() && { return std::move(keys_); }
+
+ private:
+  /// The keys between two moments.
+  void fill(const Moment& from, const Moment& to) {
+    if (motion_.largest_spin(from.t, to.t) * std::abs(to.t - from.t) <= kMostTurn) return;
+    const double t = from.t + 0.5 * (to.t - from.t);
+    const Moment middle{t, static_cast<float>(std::abs(t - start_)), false};
+    if (static_cast<double>(keys_.times.size()) >= kMostAnimationKeys) fail("would be more than a million");
+    if (!(from.time < middle.time && middle.time < to.time)) fail("would be closer than single precision can tell");
+    fill(from, middle);
+    add_key(middle);
+    fill(middle, to);
+  }
+
+  [[noreturn]] void fail(const std::string& what) const {
+    throw FileError("body '" + body_.name + "' turns too fast for an animation: its keys, a quarter of a turn apart, " +
+                    what);
+  }
+
+  void add_key(const Moment& moment) {
+    const Pose pose = moment.is_before ? motion_.before(moment.t) : motion_.behind(moment.t);
+    keys_.times.emplace_back(moment.time);
+    keys_.positions.push_back(pose.position.cast<float>());
+    if (!body_.rotation) {
+      if (keys_.rotations.empty()) keys_.rotations.push_back(pose.q_WB.coeffs().cast<float>());
+      return;
+    }
+    Eigen::Vector4f rotation = pose.q_WB.coeffs().cast<float>();
+    if (!keys_.rotations.empty() && keys_.rotations.back().dot(rotation) < 0.0f) rotation = -rotation;
+    keys_.rotations.push_back(rotation);
+  }
+
+  const BodyMotion& motion_;
+  const World::Body& body_;
+  double start_;  // s
+  std::optional<Moment> last_;
+  AnimationKeys keys_;
+};
+
+}  // namespace
+
+AnimationKeys animation_keys(const MotionRecord& motion, const RunResult& result, const World::Body& body,
+                             std::span<const double> jumps, double fps) {
+  const auto& pieces = motion.pieces(body.group);
+  if (pieces.empty()) return {};
+  const BodyMotion body_motion(pieces, body, result.end_time < result.start_time ? -1.0 : 1.0);
+  const std::vector<Moment> all = moments(result, jumps, fps);
+  KeyMaker maker(body_motion, body, result.start_time, all.size());
+  for (const Moment& moment : all) maker.add(moment);
+  return std::move(maker).keys();
 }
 
 }  // namespace trajet::detail

@@ -106,29 +106,64 @@ GltfMesh polygon_mesh(const Face& polygon) {
   return mesh;
 }
 
-GltfMesh moved(GltfMesh mesh, const Vector3& by) {
-  for (Eigen::Vector3f& position : mesh.positions) position += by.cast<float>();
-  return mesh;
+Vector3 middle(const Triangle& triangle) {
+  return (triangle.corners[0] + triangle.corners[1] + triangle.corners[2]) / 3.0;
 }
 
-GltfMesh mesh_of(const Plane& plane, const Extent& extent) {
-  const Vector3 center = extent.center - plane.normal.dot(extent.center - plane.point) * plane.normal;
-  const Vector3 u = kPlaneHalf * extent.size * plane.normal.unitOrthogonal();
-  const Vector3 v = plane.normal.cross(u);
-  return polygon_mesh({{center - u - v, center + u - v, center + u + v, center - u + v}, plane.normal});
+Quaternion turn_to(const Vector3& normal) { return Quaternion::FromTwoVectors(Vector3::UnitZ(), normal); }
+
+/// The rotation whose frame has these axes.
+Quaternion turn_to(const Vector3& x, const Vector3& z) {
+  Matrix3 R;
+  R << x, z.cross(x), z;
+  return Quaternion(R);
 }
 
-GltfMesh mesh_of(const Disk& disk, const Extent&) { return polygon_mesh(face(disk, kCircleSides)); }
+Pose pose_of(const Plane& plane, const Extent& extent) {
+  return {extent.center - plane.normal.dot(extent.center - plane.point) * plane.normal, turn_to(plane.normal)};
+}
 
-GltfMesh mesh_of(const Rectangle& rectangle, const Extent&) { return polygon_mesh(face(rectangle)); }
+Pose pose_of(const Disk& disk, const Extent&) { return {disk.center, turn_to(disk.normal)}; }
 
-GltfMesh mesh_of(const Triangle& triangle, const Extent&) { return polygon_mesh(face(triangle)); }
+Pose pose_of(const Rectangle& rectangle, const Extent&) {
+  return {rectangle.center, turn_to(rectangle.up.cross(rectangle.normal), rectangle.normal)};
+}
 
-GltfMesh mesh_of(const Sphere& sphere, const Extent&) { return moved(ball_mesh(sphere.radius, false), sphere.center); }
+Pose pose_of(const Triangle& triangle, const Extent&) {
+  return {middle(triangle), turn_to((triangle.corners[1] - triangle.corners[0]).normalized(), triangle.normal)};
+}
+
+Pose pose_of(const Sphere& sphere, const Extent&) { return {sphere.center, Quaternion::Identity()}; }
+
+Pose pose_of(const Box& box, const Extent&) { return {box.center, Quaternion(box.R_WB)}; }
+
+GltfMesh mesh_of(const Plane&, const Extent& extent) {
+  const double side = 2.0 * kPlaneHalf * extent.size;
+  return polygon_mesh(face(make_rectangle(Vector3::Zero(), Vector3::UnitZ(), Vector3::UnitY(), side, side)));
+}
+
+GltfMesh mesh_of(const Disk& disk, const Extent&) {
+  return polygon_mesh(face(make_disk(Vector3::Zero(), Vector3::UnitZ(), disk.radius), kCircleSides));
+}
+
+GltfMesh mesh_of(const Rectangle& rectangle, const Extent&) {
+  return polygon_mesh(
+      face(make_rectangle(Vector3::Zero(), Vector3::UnitZ(), Vector3::UnitY(), rectangle.width, rectangle.height)));
+}
+
+GltfMesh mesh_of(const Triangle& triangle, const Extent& extent) {
+  const Quaternion q_BW = pose_of(triangle, extent).q_WB.conjugate();
+  Face local{{}, Vector3::UnitZ()};
+  for (const Vector3& corner : triangle.corners) local.corners.emplace_back(q_BW * (corner - middle(triangle)));
+  return polygon_mesh(local);
+}
+
+GltfMesh mesh_of(const Sphere& sphere, const Extent&) { return ball_mesh(sphere.radius, false); }
 
 GltfMesh mesh_of(const Box& box, const Extent&) {
   GltfMesh mesh;
-  for (const Face& each : faces(box)) add_polygon(mesh, each.corners, each.normal);
+  for (const Face& each : faces(Box{Vector3::Zero(), box.half_size, Matrix3::Identity()}))
+    add_polygon(mesh, each.corners, each.normal);
   return mesh;
 }
 
@@ -159,6 +194,10 @@ GltfMesh body_mesh(const World::Body& body, const Extent& extent) {
 
 GltfMesh point_mesh(const World::Body& body, const Extent& extent) {
   return ball_mesh(reach(body) > 0.0 ? kNamedPointRadius * reach(body) : extent.point_radius, false);
+}
+
+Pose obstacle_pose(const Shape& shape, const Extent& extent) {
+  return std::visit([&](const auto& each) { return pose_of(each, extent); }, shape);
 }
 
 GltfMesh obstacle_mesh(const Shape& shape, const Extent& extent) {

@@ -5,6 +5,7 @@
 #include <map>
 #include <vector>
 
+#include "gltf_keys.hpp"
 #include "trajet/sim/motion_record.hpp"
 
 namespace trajet::detail {
@@ -32,7 +33,10 @@ Extent extent(const MotionRecord& motion);
 GltfMesh body_mesh(const World::Body& body, const Extent& extent);
 /// A ball that stands for a named point of the body.
 GltfMesh point_mesh(const World::Body& body, const Extent& extent);
-/// An obstacle in the world. A plane is drawn as large as what lies on it.
+/// The frame of an obstacle in the world: its origin is the middle of what is drawn, its z axis the normal of what is
+/// flat. A box keeps its axes; the y axis of a rectangle points up, the x axis of a triangle along its first edge.
+Pose obstacle_pose(const Shape& shape, const Extent& extent);
+/// An obstacle in its own frame. A plane is drawn as large as what lies on it.
 GltfMesh obstacle_mesh(const Shape& shape, const Extent& extent);
 
 }  // namespace trajet::detail

@@ -57,6 +57,8 @@ Json object(const BodyState& state) {
                {"rotation_matrix", array(R)},
                {"angular_velocity", array(state.angular_velocity)},
                {"points", points}};
+  if (state.position_error_bound) json["position_error_bound"] = *state.position_error_bound;
+  if (state.velocity_error_bound) json["velocity_error_bound"] = *state.velocity_error_bound;
   if (state.turns) {
     json["determinant"] = R.determinant();
     json["orthogonality_error"] = (R.transpose() * R - Matrix3::Identity()).cwiseAbs().maxCoeff();

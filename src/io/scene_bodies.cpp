@@ -116,7 +116,8 @@ BodyDefinition read_body(const TableReader& table) {
                "torque_body",
                "force_point",
                "inertia",
-               "points"};
+               "points",
+               "color"};
   keys.insert(keys.end(), kind.keys.begin(), kind.keys.end());
   const Keys planned = {"restitution", "friction"};
   table.check_keys(keys, planned);
@@ -128,6 +129,7 @@ BodyDefinition read_body(const TableReader& table) {
   read_translation(table, body);
   read_rotation(table, body);
   if (kind.name != "hull" && table.has("points")) read_points(table, body);
+  body.color = read_color(table);
   return body;
 }
 

@@ -25,6 +25,14 @@ OrientationDefinition read_orientation(const TableReader& table) {
   return orientation;
 }
 
+std::optional<RgbColor> read_color(const TableReader& table) {
+  if (!table.has("color")) return std::nullopt;
+  const std::string text = table.text("color");
+  const std::optional<RgbColor> color = find_color(text);
+  if (!color) table.fail("color", unknown_color(text));
+  return color;
+}
+
 namespace {
 
 using Keys = std::vector<std::string_view>;
@@ -83,7 +91,7 @@ ObstacleDefinition read_obstacle(const TableReader& table) {
   if (!table.has("shape")) throw InputError(table.where(), table.title() + " lacks the key 'shape'");
   const ObstacleKind& kind = obstacle_kinds()[table.choice("shape", shapes, 0, kPlannedShapes)];
 
-  const Keys common = {"name", "shape", "on_hit", "restitution"};
+  const Keys common = {"name", "shape", "on_hit", "restitution", "color"};
   Keys planned = {"friction", "velocity", "angular_velocity", "file", "scale"};
   const std::string with_shape = table.title() + " of shape " + std::string(kind.name);
   TableReader titled = table.titled(with_shape);
@@ -100,6 +108,7 @@ ObstacleDefinition read_obstacle(const TableReader& table) {
   obstacle.on_hit =
       std::array{OnHit::stop, OnHit::bounce, OnHit::pass}[table.choice("on_hit", kOnHit, 0, kPlannedOnHit)];
   if (table.has("restitution")) obstacle.restitution = table.scalar("restitution", kDimensionless);
+  obstacle.color = read_color(table);
   return obstacle;
 }
 

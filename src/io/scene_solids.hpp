@@ -8,6 +8,9 @@ namespace trajet::detail {
 /// Reads an orientation: an axis and an angle, a quaternion, or a matrix.
 OrientationDefinition read_orientation(const TableReader& table);
 
+/// Reads the `color` of a body or an obstacle, if it has one.
+std::optional<RgbColor> read_color(const TableReader& table);
+
 /// Reads a table `[[body]]`.
 BodyDefinition read_body(const TableReader& table);
 

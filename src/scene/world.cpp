@@ -6,6 +6,7 @@
 #include <map>
 #include <set>
 #include <string_view>
+#include <unordered_map>
 
 #include "body_maker.hpp"
 #include "partition.hpp"
@@ -42,6 +43,7 @@ class WorldBuilder {
     world_.obstacles.reserve(scene_.obstacles.size());
     for (const ObstacleDefinition& obstacle : scene_.obstacles) {
       world_.obstacles.push_back(make_obstacle(obstacle, numbers_));
+      world_.obstacles.back().color = obstacle.color;
       world_.obstacles.back().restitution = restitution_of(obstacle);
     }
     find_dependencies();
@@ -107,14 +109,16 @@ class WorldBuilder {
   void depend(int member, const Expression& formula) {
     for (const std::string& name : formula.names()) {
       const std::string_view owner = std::string_view(name).substr(0, name.find('.'));
-      for (std::size_t i = 0; i < scene_.bodies.size(); ++i)
-        if (scene_.bodies[i].name == owner && owner.size() != name.size()) partition_.join(member, static_cast<int>(i));
-      for (std::size_t i = 0; i < scene_.states.size(); ++i)
-        if (scene_.states[i].name == name) partition_.join(member, state_member(i));
+      const auto found = members_.find(owner);
+      if (found == members_.end()) continue;
+      const bool is_body = found->second < state_member(0);
+      if (is_body == (owner.size() != name.size())) partition_.join(member, found->second);
     }
   }
 
   void find_dependencies() {
+    for (std::size_t i = 0; i < scene_.bodies.size(); ++i) members_[scene_.bodies[i].name] = static_cast<int>(i);
+    for (std::size_t i = 0; i < scene_.states.size(); ++i) members_[scene_.states[i].name] = state_member(i);
     for (std::size_t i = 0; i < scene_.bodies.size(); ++i) {
       const BodyDefinition& body = scene_.bodies[i];
       for (const auto* law :
@@ -166,6 +170,7 @@ class WorldBuilder {
     for (std::size_t i = 0; i < scene_.bodies.size(); ++i) {
       const BodyDefinition& definition = scene_.bodies[i];
       World::Body body = make_body(definition, numbers_, scene_.method);
+      body.color = definition.color;
       body.group = group_of(static_cast<int>(i));
       body.offset = append(group(body.group).start, start_state(definition, body, numbers_));
       if (body.rotation) body.rotation->offset = body.slice().orientation_index();
@@ -190,8 +195,8 @@ class WorldBuilder {
   Symbols group_symbols(int index, ProgramBuilder& builder) const {
     Symbols symbols(&parameters_.symbols);
     symbols.set_input("t", 0);
-    for (const World::Body& body : world_.bodies) {
-      if (body.group != index) continue;
+    for (const int b : world_.groups[static_cast<std::size_t>(index)].bodies) {
+      const World::Body& body = world_.bodies[static_cast<std::size_t>(b)];
       add_body_symbols(symbols, body.name + ".", 1 + body.offset);
       add_rotation_symbols(symbols, body.name + ".", body, builder);
     }
@@ -386,6 +391,7 @@ class WorldBuilder {
   ParameterSet parameters_;
   SceneNumbers numbers_;
   Partition partition_;
+  std::unordered_map<std::string_view, int> members_;  // of the partition, by the names of bodies and extra states
   std::map<int, int> group_of_root_;
   World world_;
 };

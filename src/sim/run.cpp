@@ -2,21 +2,59 @@
 
 #include <chrono>
 
-#include "simulation.hpp"
+#include "run_loop.hpp"
 #include "trajet/scene/world.hpp"
 
 namespace trajet {
+namespace {
+
+/// Wants to hear of nothing.
+class NoObserver : public RunObserver {
+ public:
+  RunWishes wishes() const override { return {}; }
+};
+
+}  // namespace
+
+class Run::State {
+ public:
+  State(const World& world, RunObserver* observer) : loop(world, observer != nullptr ? *observer : no_observer_) {}
+
+ private:
+  NoObserver no_observer_;
+  const std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now();
+
+ public:
+  double wall_seconds() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - began_).count();
+  }
+  RunLoop loop;
+};
+
+Run::Run(const World& world, RunObserver* observer) : state_(std::make_unique<State>(world, observer)) {}
+Run::~Run() = default;
+Run::Run(Run&&) noexcept = default;
+Run& Run::operator=(Run&&) noexcept = default;
+
+bool Run::step() { return state_->loop.step(); }
+
+double Run::next_time() const { return state_->loop.next_time(); }
+
+RunResult Run::result() {
+  RunResult result = state_->loop.recorder().result();
+  result.statistics.wall_seconds = state_->wall_seconds();
+  return result;
+}
 
 void check(const Scene& scene) { static_cast<void>(make_world(scene)); }
 
 RunResult run(const Scene& scene, RunObserver* observer) { return run(make_world(scene), observer); }
 
 RunResult run(const World& world, RunObserver* observer) {
-  const auto begin = std::chrono::steady_clock::now();
-  RunObserver unobserved;
-  RunResult result = Simulation(world, observer != nullptr ? *observer : unobserved).run();
-  result.statistics.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  return result;
+  Run run(world, observer);
+  while (run.step()) {
+  }
+  return run.result();
 }
 
 }  // namespace trajet

@@ -4,12 +4,6 @@
 
 namespace trajet {
 
-void settle_orientations(const World& world, int group, Eigen::VectorXd& q) {
-  for (const int body : world.groups[static_cast<std::size_t>(group)].bodies)
-    if (const auto& rotation = world.bodies[static_cast<std::size_t>(body)].rotation)
-      rotation->layout.settle(q.data() + rotation->offset);
-}
-
 Eigen::VectorXd carried_as_in(const World& to, const World& from, int group, const Eigen::VectorXd& q) {
   const auto g = static_cast<std::size_t>(group);
   Eigen::VectorXd result(to.groups[g].start.size());

@@ -8,6 +8,7 @@
 
 #include "carried_orientations.hpp"
 #include "error_meter.hpp"
+#include "trajet/sim/observer_list.hpp"
 #include "trajet/sim/run.hpp"
 
 namespace trajet {
@@ -237,7 +238,7 @@ class ComparisonRun {
     }
     told.where = plan_.reference_where;
     const auto recorded = std::make_shared<RecordedReference>();
-    Relay relay{*recorded, observer_.begin_reference(std::string(method.name))};
+    ObserverList relay({recorded.get(), observer_.begin_reference(std::string(method.name))});
     try {
       const World world = this->world(told);
       const RunResult run = trajet::run(world, &relay);
@@ -258,22 +259,6 @@ class ComparisonRun {
   }
 
   double base_atol() const { return world(with_tolerance(*base_.method, kReferenceTolerance)).step_options.atol; }
-
-  /// Hands a run to two observers; the second may be none.
-  struct Relay : RunObserver {
-    Relay(RunObserver& first, RunObserver* second) : first_(first), second_(second) {}
-    void begin(const World& world) override {
-      first_.begin(world);
-      if (second_ != nullptr) second_->begin(world);
-    }
-    void motion(const MotionPiece& piece) override {
-      first_.motion(piece);
-      if (second_ != nullptr) second_->motion(piece);
-    }
-    bool interrupted(double time) override { return second_ != nullptr && second_->interrupted(time); }
-    RunObserver& first_;
-    RunObserver* second_;
-  };
 
   /// A closed form that does not begin where the motion begins belongs to another motion.
   void warn_of_another_start() {
@@ -324,8 +309,9 @@ class ComparisonRun {
   }
 
   void measure(const World& world, ComparisonRow& row, RunObserver* onlooker) const {
-    ErrorMeter meter(*result_.reference, base_, onlooker);
-    const RunResult run = trajet::run(world, &meter);
+    ErrorMeter meter(*result_.reference, base_);
+    ObserverList observers({&meter, onlooker});
+    const RunResult run = trajet::run(world, &observers);
     row.status = run.status;
     row.failure = run.failure;
     row.end_time = run.end_time;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "carried_orientations.hpp"
+#include "trajet/sim/state_at.hpp"
 
 namespace trajet {
 namespace {
@@ -20,7 +21,6 @@ void raise(Deviation& maximum, const Deviation& value) {
 }  // namespace
 
 void ErrorMeter::begin(const World& world) {
-  if (onlooker_ != nullptr) onlooker_->begin(world);
   world_ = &world;
   start_ = world.start;
   sample_ = world.end < world.start ? -world.sample : world.sample;
@@ -47,7 +47,6 @@ void ErrorMeter::begin(const World& world) {
 }
 
 void ErrorMeter::motion(const MotionPiece& piece) {
-  if (onlooker_ != nullptr) onlooker_->motion(piece);
   Group& group = groups_[static_cast<std::size_t>(piece.group)];
   if (piece.begins_anew && reference_.ends_at_jumps() && piece.from != start_) group.open = false;
   if (!group.open) return;
@@ -87,7 +86,7 @@ void ErrorMeter::note_rotation(int group, long sample, double t) {
 }
 
 Deviation ErrorMeter::deviation(const MotionPiece& piece, double t) {
-  state_ = piece.state(t);
+  state_ = state_at(*world_, piece.group, piece.segment, t);
   read_reference(piece.group, t);
   return deviation(groups_[static_cast<std::size_t>(piece.group)]);
 }
@@ -95,7 +94,7 @@ Deviation ErrorMeter::deviation(const MotionPiece& piece, double t) {
 void ErrorMeter::read_reference(int group, double t) {
   Eigen::VectorXd carried;
   reference_.state(group, t, carried);
-  settle_orientations(reference_world_, group, carried);
+  read_orientations(reference_world_, group, carried);
   reference_state_ = carried_as_in(*world_, reference_world_, group, carried);
   align_orientations(*world_, group, reference_state_, state_);
 }

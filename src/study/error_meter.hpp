@@ -9,17 +9,17 @@
 
 namespace trajet {
 
-/// Measures a run against a reference while it goes on, and passes it on to an onlooker.
+/// Measures a run against a reference while it goes on.
 class ErrorMeter : public RunObserver {
  public:
   /// `reference_world` says what the numbers of the reference's states mean: its orientations may be carried in another
-  /// way. `onlooker` may be null. All outlive the meter.
-  ErrorMeter(const Reference& reference, const World& reference_world, RunObserver* onlooker)
-      : reference_(reference), reference_world_(reference_world), onlooker_(onlooker) {}
+  /// way. Both outlive the meter.
+  ErrorMeter(const Reference& reference, const World& reference_world)
+      : reference_(reference), reference_world_(reference_world) {}
 
+  RunWishes wishes() const override { return {.motion = true}; }
   void begin(const World& world) override;
   void motion(const MotionPiece& piece) override;
-  bool interrupted(double time) override { return onlooker_ != nullptr && onlooker_->interrupted(time); }
 
   Deviation at_end() const;
   Deviation at_samples() const { return at_samples_; }
@@ -51,7 +51,6 @@ class ErrorMeter : public RunObserver {
 
   const Reference& reference_;
   const World& reference_world_;
-  RunObserver* onlooker_;
   const World* world_ = nullptr;  // while the run lasts
   double start_ = 0.0;            // s
   double sample_ = 0.0;           // s, signed

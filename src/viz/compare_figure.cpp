@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 
+#include "compare_notes.hpp"
 #include "motions_panel.hpp"
 #include "plot_panel.hpp"
 #include "pose_strip.hpp"
@@ -26,6 +28,9 @@ using detail::RowStyle;
 constexpr FigureSize kSize{1240, 760};
 /// Errors below this are rounding, and zero has no logarithm.
 constexpr double kSmallestError = 1e-17;
+/// Of a line of notes, pixels.
+constexpr int kNoteHeight = 20;
+constexpr std::size_t kFirstNoteLabel = 100;
 
 class CompareFigure {
  public:
@@ -36,7 +41,10 @@ class CompareFigure {
         motions_(comparison, world, motions, component, styles_),
         rotations_(comparison, styles_) {
     if (!component) strip_ = motions_.strip();
-    size_.height += strip_.height() + rotations_.height();
+    if (const double size = motions_.reference_size(); size > 0.0) largest_error_ = detail::kMostError * size;
+    notes_ = detail::compare_notes(comparison, styles_, largest_error_,
+                                   [this](const ComparisonRow& row) { return motions_.title(row); });
+    size_.height += notes_height() + strip_.height() + rotations_.height();
   }
 
   Figure build() {
@@ -44,28 +52,37 @@ class CompareFigure {
         "set multiplot\nset label 1 {} at screen 0.5, screen {:.4f} center font ',21'\n"
         "set label 2 {} at screen 0.5, screen {:.4f} center tc '#505050'\n"
         "set border lw 1.2 lc '#404040'\nset grid lc '#d8d8d8' lt 1 lw 0.8\n",
-        quoted(comparison_.title.empty() ? comparison_.scene : comparison_.title), 1.0 - 24.0 / size_.height,
-        quoted(subtitle()), 1.0 - 49.0 / size_.height);
+        quoted(title()), 1.0 - 24.0 / size_.height, quoted(subtitle()), 1.0 - 49.0 / size_.height);
+    for (std::size_t i = 0; i < notes_.size(); ++i)
+      script_ += fmt::format("set label {} {} at screen {:.4f}, screen {:.4f} left tc '#505050'\n", kFirstNoteLabel + i,
+                             quoted(notes_[i]), 24.0 / size_.width,
+                             (notes_height() - kNoteHeight * (static_cast<double>(i) + 0.5)) / size_.height);
     constexpr double kLegendLine = 25.0 / kSize.height;
     const double motions_top = 0.895 - kLegendLine * static_cast<double>(motions_.legend_lines());
     script_ += motions_.script(upper({0.08, 0.485, 0.11, motions_top}), size_);
-    script_ += "unset label 1\nunset label 2\nset logscale xy\nset format xy '10^{%T}'\nset termoption enhanced\n";
+    for (std::size_t i = 0; i < notes_.size(); ++i) script_ += fmt::format("unset label {}\n", kFirstNoteLabel + i);
+    script_ += "unset label 1\nunset label 2\nset logscale xy\nset termoption enhanced\n";
     const double work_right = 0.985 - legend_width();
     add_work(upper({0.6, work_right, 0.56, 0.86}), "law evaluations", true);
     add_work(upper({0.6, work_right, 0.11, 0.42}), "time [ms]", false);
     add_legend(upper({work_right + 0.01, 0.99, 0.11, 0.86}));
     if (!strip_.is_empty()) {
       script_ += "set termoption noenhanced\n";
-      script_ += strip_.script(
-          {24.0 / size_.width, 1.0 - 24.0 / size_.width, 8.0 / size_.height, (strip_.height() - 4.0) / size_.height},
-          size_);
+      script_ += strip_.script({24.0 / size_.width, 1.0 - 24.0 / size_.width, (notes_height() + 8.0) / size_.height,
+                                (notes_height() + strip_.height() - 4.0) / size_.height},
+                               size_);
     }
-    if (!rotations_.is_empty()) script_ += rotations_.script(strip_.height(), size_);
+    if (!rotations_.is_empty()) script_ += rotations_.script(notes_height() + strip_.height(), size_);
     script_ += "unset multiplot\n";
-    return {std::move(script_), size_};
+    return {std::move(script_), size_, title()};
   }
 
  private:
+  std::string title() const { return comparison_.title.empty() ? comparison_.scene : comparison_.title; }
+
+  /// Pixels of the notes, which stand at the foot.
+  int notes_height() const { return notes_.empty() ? 0 : kNoteHeight * static_cast<int>(notes_.size()) + 10; }
+
   std::string subtitle() const {
     const std::string reference =
         comparison_.reference_name == "exact" ? "the closed form" : comparison_.reference_name;
@@ -76,16 +93,24 @@ class CompareFigure {
   double legend_width() const {
     constexpr double kSample = 60.0, kCharacter = 8.6, kLeast = 0.195;
     std::size_t longest = 0;
-    for (const RowStyle& style : styles_) longest = std::max(longest, style.name.size());
+    for (const RowStyle& style : styles_) longest = std::max(longest, entry(style).size());
     return std::max(kLeast, (kSample + kCharacter * static_cast<double>(longest)) / kSize.width);
   }
 
   /// A frame of the figure without solids, in the one above them.
   Frame upper(Frame frame) const {
     for (double* y : {&frame.bottom, &frame.top})
-      *y = (*y * kSize.height + strip_.height() + rotations_.height()) / size_.height;
+      *y = (*y * kSize.height + notes_height() + strip_.height() + rotations_.height()) / size_.height;
     return frame;
   }
+
+  bool has_result(const RowStyle& style) const {
+    return std::ranges::any_of(comparison_.rows,
+                               [&](const ComparisonRow& row) { return style.is_of(row) && row.succeeded(); });
+  }
+
+  /// In the list of methods.
+  std::string entry(const RowStyle& style) const { return has_result(style) ? style.name : style.name + ": no result"; }
 
   /// The error against what it costs, one line for each method.
   void add_work(const Frame& frame, const std::string& label, bool is_first) {
@@ -95,6 +120,7 @@ class CompareFigure {
       std::vector<std::vector<double>> rows;
       for (const ComparisonRow& row : comparison_.rows) {
         if (!style.is_of(row) || !row.succeeded() || !row.at_samples.state) continue;
+        if (!(*row.at_samples.state <= largest_error_)) continue;
         const double cost =
             is_first ? static_cast<double>(row.statistics.law_evaluations) : 1e3 * row.statistics.wall_seconds;
         rows.push_back({std::max(cost, is_first ? 1.0 : 1e-6), std::max(*row.at_samples.state, kSmallestError)});
@@ -111,7 +137,8 @@ class CompareFigure {
     if (plot.empty()) return;
     script_ += detail::place(frame);
     script_ += detail::logarithmic_axis("x", costs) + detail::logarithmic_axis("y", errors);
-    script_ += fmt::format("set xlabel {}\nset ylabel 'error'\n", quoted(label));
+    script_ += fmt::format("set xlabel {}\nset ylabel {}\n", quoted(label),
+                           quoted("error [" + detail::error_unit(comparison_) + "]"));
     script_ += "unset key\nplot " + plot + "\n";
   }
 
@@ -119,12 +146,9 @@ class CompareFigure {
   void add_legend(const Frame& frame) {
     std::string plot;
     for (const RowStyle& style : styles_) {
-      const bool is_drawn = std::ranges::any_of(comparison_.rows, [&](const ComparisonRow& row) {
-        return style.is_of(row) && row.succeeded() && row.at_samples.state;
-      });
-      if (is_drawn)
-        plot += fmt::format("{}NaN with linespoints lw 1.8 lc '{}' pt {} ps 0.9 title {}", plot.empty() ? "" : ", ",
-                            detail::color_text(style.color), style.point, quoted(style.name));
+      const char* with = has_result(style) ? "linespoints" : "points";
+      plot += fmt::format("{}NaN with {} lw 1.8 lc '{}' pt {} ps 0.9 title {}", plot.empty() ? "" : ", ", with,
+                          detail::color_text(style.color), style.point, quoted(entry(style)));
     }
     if (plot.empty()) return;
     script_ += detail::place(frame) +
@@ -139,6 +163,8 @@ class CompareFigure {
   detail::MotionsPanel motions_;
   detail::RotationPanels rotations_;
   detail::PoseStrip strip_;
+  double largest_error_ = std::numeric_limits<double>::infinity();  // that the diagrams show, SI units
+  std::vector<std::string> notes_;
   FigureSize size_ = kSize;
   std::string script_;
 };

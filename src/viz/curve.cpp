@@ -13,11 +13,13 @@ namespace {
 constexpr double kPointsOfRun = 1000.0;
 /// Points of a piece, at least: a step of a method of high order can be the whole run, a bounce a hundredth of it.
 constexpr int kPointsOfPiece = 8;
-/// A line may pass a curve by this part of the curve's extent: half a pixel of a panel.
+/// A line may pass a curve by this part of what its axis shows: half a pixel of a panel.
 constexpr double kBend = 1e-3;
 /// An interval between two of these points is halved so many times at most, while there are not so many points.
 constexpr int kMostHalvings = 5;
 constexpr std::size_t kMostPoints = 8000;
+/// What varies less than this, against its size, varies by rounding.
+constexpr double kRounding = 1e-9;
 /// A line takes the place of so many points at most.
 constexpr std::size_t kLongestLine = 200;
 
@@ -25,10 +27,23 @@ constexpr std::size_t kLongestLine = 200;
 struct Drawn {
   int first, count;
   bool is_rate;
-  double extent = 0.0;
+  int vector_first = first, vector_count = count;  // of the vector that they are part of, which gives their size
+  /// What the axis spans if it shows the motion up to a point of the coarse curve, or from there on, whichever is less:
+  /// the beginning of a motion that runs away is visible beside another one.
+  std::vector<double> extents{};
 
-  double value(const Curve& curve, std::size_t point, int i) const {
-    return (is_rate ? curve.rates : curve.states)[point][static_cast<std::size_t>(first + i)];
+  double value(const Curve& curve, std::size_t point, int i) const { return component(curve, point, first + i); }
+  /// Of the vector.
+  double size(const Curve& curve, std::size_t point) const {
+    double largest = 0.0;
+    for (int i = 0; i < vector_count; ++i)
+      largest = std::max(largest, std::abs(component(curve, point, vector_first + i)));
+    return largest;
+  }
+
+ private:
+  double component(const Curve& curve, std::size_t point, int index) const {
+    return (is_rate ? curve.rates : curve.states)[point][static_cast<std::size_t>(index)];
   }
 };
 
@@ -37,9 +52,9 @@ std::vector<Drawn> drawn_components(const World& world, int group) {
   for (const World::Body& body : world.bodies) {
     if (body.group != group) continue;
     const BodySlice slice = body.slice();
-    drawn.insert(
-        drawn.end(),
-        {{slice.position_index(), 3, false}, {slice.velocity_index(), 3, false}, {slice.velocity_index(), 3, true}});
+    // paths have an axis for each coordinate
+    for (int i = 0; i < 3; ++i) drawn.push_back({slice.position_index() + i, 1, false, slice.position_index(), 3});
+    drawn.insert(drawn.end(), {{slice.velocity_index(), 3, false}, {slice.velocity_index(), 3, true}});
     if (body.rotation) drawn.push_back({slice.angular_velocity_index(), 3, false});
   }
   for (const World::ExtraState& state : world.states)
@@ -64,19 +79,37 @@ struct Interval {
   double from, to;
 };
 
+/// The extents of what is drawn, up to each point of a curve and from there on, of the two the lesser.
+std::vector<double> extents(const Drawn& drawn, const Curve& curve) {
+  const std::size_t count = curve.times.size();
+  std::vector<double> result(count);
+  double low = 0.0, high = 0.0, size = 0.0;
+  const auto begin = [&] {
+    low = std::numeric_limits<double>::infinity();
+    high = -low;
+    size = 0.0;
+  };
+  const auto include = [&](std::size_t point) {
+    size = std::max(size, drawn.size(curve, point));
+    for (int i = 0; i < drawn.count; ++i) {
+      const double value = drawn.value(curve, point, i);
+      low = std::min(low, value);
+      high = std::max(high, value);
+    }
+    return std::max(high - low, kRounding * size);
+  };
+  begin();
+  for (std::size_t point = 0; point < count; ++point) result[point] = include(point);
+  begin();
+  for (std::size_t point = count; point-- > 0;) result[point] = std::min(result[point], include(point));
+  return result;
+}
+
 /// What makes a line through points look smooth, and what of them is too much.
 class Refinement {
  public:
-  Refinement(std::vector<Drawn> drawn, const Curve& coarse) : drawn_(std::move(drawn)) {
-    for (Drawn& each : drawn_) {
-      double low = std::numeric_limits<double>::infinity(), high = -low;
-      for (std::size_t point = 0; point < coarse.times.size(); ++point)
-        for (int i = 0; i < each.count; ++i) {
-          low = std::min(low, each.value(coarse, point, i));
-          high = std::max(high, each.value(coarse, point, i));
-        }
-      each.extent = high - low;
-    }
+  Refinement(std::vector<Drawn> drawn, const Curve& coarse) : drawn_(std::move(drawn)), times_(coarse.times) {
+    for (Drawn& each : drawn_) each.extents = extents(each, coarse);
   }
 
   /// Adds the points behind `from`, up to `to`.
@@ -110,12 +143,21 @@ class Refinement {
   }
 
  private:
+  /// The point of the coarse curve at a time, or the one before.
+  std::size_t coarse_point(double t) const {
+    const bool is_backward = times_.back() < times_.front();
+    const auto behind =
+        std::ranges::partition_point(times_, [&](double each) { return is_backward ? each >= t : each <= t; });
+    return behind == times_.begin() ? 0 : static_cast<std::size_t>(behind - times_.begin()) - 1;
+  }
+
   bool bends(const Interval& interval, double middle) const {
     const Segment<>& segment = *interval.segment;
+    const std::size_t point = coarse_point(interval.to);
     return std::ranges::any_of(drawn_, [&](const Drawn& each) {
       for (int i = each.first; i < each.first + each.count; ++i) {
         const auto value = [&](double t) { return each.is_rate ? segment.derivative(i, t) : segment.value(i, t); };
-        if (std::abs(0.5 * (value(interval.from) + value(interval.to)) - value(middle)) > kBend * each.extent)
+        if (std::abs(0.5 * (value(interval.from) + value(interval.to)) - value(middle)) > kBend * each.extents[point])
           return true;
       }
       return false;
@@ -126,12 +168,14 @@ class Refinement {
   bool is_line(const Curve& curve, std::size_t from, std::size_t to) const {
     const double duration = curve.times[to] - curve.times[from];
     if (duration == 0.0) return false;
+    const std::size_t coarse = coarse_point(curve.times[to]);
     return std::ranges::all_of(drawn_, [&](const Drawn& each) {
       for (std::size_t point = from + 1; point < to; ++point)
         for (int i = 0; i < each.count; ++i) {
           const double part = (curve.times[point] - curve.times[from]) / duration;
           const double start = each.value(curve, from, i), end = each.value(curve, to, i);
-          if (!(std::abs(start + part * (end - start) - each.value(curve, point, i)) <= 0.5 * kBend * each.extent))
+          if (!(std::abs(start + part * (end - start) - each.value(curve, point, i)) <=
+                0.5 * kBend * each.extents[coarse]))
             return false;
         }
       return true;
@@ -139,6 +183,7 @@ class Refinement {
   }
 
   std::vector<Drawn> drawn_;
+  std::vector<double> times_;  // of the coarse curve
 };
 
 }  // namespace

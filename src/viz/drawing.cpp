@@ -150,6 +150,22 @@ Color mix(Color from, Color to, double part) {
 
 std::string color_text(Color color) { return fmt::format("#{:06x}", color); }
 
+Color color_or(const std::optional<RgbColor>& given, Color otherwise) {
+  return given ? given->red << 16 | given->green << 8 | given->blue : otherwise;
+}
+
+Color obstacle_color(const World::Obstacle& obstacle) {
+  constexpr Color kGrey = 0x8a8a80;
+  return color_or(obstacle.color, kGrey);
+}
+
+Color line_color(Color color) {
+  constexpr double kLightest = 0.7;
+  const double red = (color >> 16) & 0xff, green = (color >> 8) & 0xff, blue = color & 0xff;
+  const double lightness = (0.3 * red + 0.59 * green + 0.11 * blue) / 255.0;
+  return lightness <= kLightest ? color : mix(color, kBlack, 1.0 - kLightest / lightness);
+}
+
 double Look::radius() const {
   double radius = ball_radius;
   for (const Face& face : faces)

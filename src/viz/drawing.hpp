@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,11 @@ using Color = int;
 /// `part` of the way from one colour to another.
 Color mix(Color from, Color to, double part);
 std::string color_text(Color color);  // as '#rrggbb'
+/// What a scene says of a body or an obstacle, or else `otherwise`.
+Color color_or(const std::optional<RgbColor>& given, Color otherwise);
+Color obstacle_color(const World::Obstacle& obstacle);
+/// A colour for lines on white paper: those that are too light for it become darker.
+Color line_color(Color color);
 
 /// What a body looks like, in its own frame.
 struct Look {

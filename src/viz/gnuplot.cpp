@@ -11,6 +11,7 @@
 #include <cstring>
 #include <memory>
 
+#include "svg_names.hpp"
 #include "trajet/error.hpp"
 
 extern char** environ;
@@ -80,9 +81,9 @@ void require_gnuplot() {
   throw FileError(kMissing);
 }
 
-std::string draw(const std::string& script, FigureFormat format, const FigureSize& size) {
+std::string draw(const Figure& figure, FigureFormat format) {
   const ScratchFile in = make_scratch_file(), out = make_scratch_file(), err = make_scratch_file();
-  const std::string text = "set encoding utf8\n" + terminal(format, size) + script;
+  const std::string text = "set encoding utf8\nset minussign\n" + terminal(format, figure.size) + figure.script;
   if (std::fwrite(text.data(), 1, text.size(), in.get()) != text.size() || std::fflush(in.get()) != 0)
     throw FileError(std::string("cannot write a temporary file: ") + std::strerror(errno));
   std::rewind(in.get());
@@ -104,7 +105,7 @@ std::string draw(const std::string& script, FigureFormat format, const FigureSiz
   }
   std::string picture = contents(out.get());
   if (status != 0 || picture.empty()) throw FileError("gnuplot failed:\n" + contents(err.get()));
-  return picture;
+  return format == FigureFormat::svg ? detail::with_names(picture, figure.title) : picture;
 }
 
 namespace detail {

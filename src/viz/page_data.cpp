@@ -162,6 +162,7 @@ Json body_data(const World::Body& body, const World::Group& group) {
                {"attitude", {q.w(), q.x(), q.y(), q.z()}}};
   for (const World::Point& point : body.points)
     data["points"].push_back({{"name", point.name}, {"position", array(point.p_B)}});
+  if (body.color) data["color"] = color_text(*body.color);
   if (body.rotation) data["rotation"] = object(*body.rotation, slice);
   return data;
 }
@@ -187,6 +188,7 @@ Json page_data(const PageRun& run) {
   for (const World::Obstacle& obstacle : world.obstacles) {
     Json shape = std::visit([](const auto& each) { return object(each); }, obstacle.shape);
     data["obstacles"].push_back({{"name", obstacle.name}, {"shape", std::move(shape)}});
+    if (obstacle.color) data["obstacles"].back()["color"] = color_text(*obstacle.color);
   }
   for (std::size_t g = 0; g < world.groups.size(); ++g)
     data["groups"].push_back(

@@ -15,8 +15,10 @@ constexpr std::size_t kMostLegendEntries = 12;
 /// A way that is longer than so many times its extent is a tangle.
 constexpr double kLongestWay = 16.0;
 constexpr std::size_t kMostTrails = 4;
+/// What moves by less than this, against where it is, does not move.
+constexpr double kRounding = 1e-12;
 
-std::string line_style(Color color) { return fmt::format("lines lw 2.4 lc '{}'", color_text(color)); }
+std::string line_style(Color color) { return fmt::format("lines lw 2.4 lc '{}'", color_text(line_color(color))); }
 constexpr const char* kImpactStyle = "points pt 6 ps 1.2 lw 2 lc '#202020'";
 
 bool is_clear(const std::vector<Vector3>& way) {
@@ -31,24 +33,19 @@ bool is_clear(const std::vector<Vector3>& way) {
 
 }  // namespace
 
-Color body_color(std::size_t body) {
+Color body_color(const World& world, std::size_t body) {
   constexpr Color kColors[] = {0x0050c8, 0xe07b00, 0x007a6c, 0xa03a90, 0x6b6b6b, 0x8c5a2b};
-  return kColors[body % std::size(kColors)];
+  return color_or(world.bodies[body].color, kColors[body % std::size(kColors)]);
 }
 
 PathPanel::PathPanel(const RunResult& result, const MotionRecord& record, const std::vector<Curve>& curves)
     : result_(result), record_(record), world_(record.world()), curves_(curves) {
-  for (int i = 0; i < 3; ++i) {
-    Range range;
-    bool changes = false;
-    for (const World::Body& body : world_.bodies) {
-      for (const Vector3& point : path(body)) {
-        if (!range.is_empty() && point[i] != range.low) changes = true;
-        range.include(point[i]);
-      }
-    }
-    if (changes) kept_.push_back(i);
-  }
+  Eigen::AlignedBox3d box;
+  for (const World::Body& body : world_.bodies)
+    for (const Vector3& point : path(body)) box.extend(point);
+  for (int i = 0; i < 3 && !box.isEmpty(); ++i)
+    if (box.sizes()[i] > kRounding * std::max(box.min().cwiseAbs().maxCoeff(), box.max().cwiseAbs().maxCoeff()))
+      kept_.push_back(i);
   is_in_space_ = kept_.size() == 3 ||
                  std::ranges::any_of(world_.bodies, [&](const World::Body& body) { return is_turning_solid(body); });
 }
@@ -86,7 +83,8 @@ bool PathPanel::is_turning_solid(const World::Body& body) const { return body.ro
 
 bool PathPanel::stays(const World::Body& body) const {
   const std::vector<Vector3> points = path(body);
-  return std::ranges::all_of(points, [&](const Vector3& point) { return point == points.front(); });
+  const double rounding = kRounding * (points.front().norm() + look(body).radius());
+  return std::ranges::all_of(points, [&](const Vector3& point) { return (point - points.front()).norm() <= rounding; });
 }
 
 double PathPanel::aspect() const { return is_in_space_ ? space_panel().aspect() : 1.0; }
@@ -102,7 +100,7 @@ SpacePanel PathPanel::space_panel() const {
   std::size_t trails = 0;
   for (std::size_t b = 0; b < world_.bodies.size(); ++b) {
     const World::Body& body = world_.bodies[b];
-    const Color color = body_color(b);
+    const Color color = body_color(world_, b);
     const Look shown = look(body);
     const bool is_fixed = is_turning_solid(body) && stays(body);
     const std::vector<Pose> poses = make_poses(record_, body);
@@ -165,12 +163,13 @@ std::string PathPanel::plane_script(const Frame& frame) const {
     for (std::size_t f = 0; f < faces.size(); ++f) {
       std::vector<Vector3> corners = faces[f].corners;
       corners.push_back(corners.front());
-      add(fmt::format("obstacle{}_{}", o, f), corners, "lines lw 3 lc '#8a8a80' notitle");
+      add(fmt::format("obstacle{}_{}", o, f), corners,
+          fmt::format("lines lw 3 lc '{}' notitle", color_text(line_color(obstacle_color(world_.obstacles[o])))));
     }
   }
   for (std::size_t b = 0; b < world_.bodies.size(); ++b)
     add(fmt::format("path{}", b), path(world_.bodies[b]),
-        line_style(body_color(b)) +
+        line_style(body_color(world_, b)) +
             (b < kMostLegendEntries ? " title " + quoted(world_.bodies[b].name) : std::string(" notitle")));
   if (!result_.impacts.empty()) {
     std::vector<Vector3> points;

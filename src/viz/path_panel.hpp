@@ -14,8 +14,8 @@
 
 namespace trajet::detail {
 
-/// The colour of a body, by its index.
-Color body_color(std::size_t body);
+/// The colour of a body: its own, or one by its index.
+Color body_color(const World& world, std::size_t body);
 
 /// The panel of a run's figure that shows where everything went: the paths, the solids as they stood, the obstacles,
 /// the impacts. In space, or where all points move in one plane of the axes, in that plane.

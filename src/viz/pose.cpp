@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "trajet/sim/state_at.hpp"
+
 namespace trajet {
 
 Pose pose(const World::Body& body, double time, const Eigen::VectorXd& state) {
@@ -41,7 +43,7 @@ std::vector<Pose> poses_at(const MotionRecord& record, const World::Body& body, 
   for (const double t : times) {
     piece = std::find_if(piece, pieces.end() - 1,
                          [&](const MotionRecord::Piece& each) { return direction * (each.to - t) >= 0.0; });
-    poses.push_back(pose(body, t, piece->segment.state(t)));
+    poses.push_back(pose(body, t, state_at(record.world(), body.group, piece->segment, t)));
   }
   return poses;
 }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace trajet::detail {
 
@@ -12,6 +13,8 @@ namespace {
 constexpr double kTitle = 20.0, kTimes = 22.0;
 /// Of rows below one another every second pose will do, if there are more than this.
 constexpr std::size_t kMostColumns = 7;
+/// What has grown to more than so many times its size at first is told, not drawn: it would make the others too small.
+constexpr double kMostGrowth = 5.0;
 /// A picture's part of its cell.
 constexpr double kFill = 0.94;
 
@@ -21,6 +24,9 @@ Vector2 reach(const Drawing& drawing) {
     for (const Vector2& point : line) largest = largest.cwiseMax(point.cwiseAbs());
   return largest;
 }
+
+/// How many times as large a body is as it is made; of a rotation 1.
+double growth(const Pose& pose) { return pose.R_WB.colwise().norm().maxCoeff(); }
 
 /// Every second one, counted from the last; the first too.
 std::vector<Pose> every_second(const std::vector<Pose>& poses) {
@@ -52,7 +58,8 @@ std::string PoseStrip::script(const Frame& frame, const FigureSize& size) const 
   for (const Row& row : rows) {
     columns = std::max(columns, row.poses.size());
     for (const Pose& pose : row.poses)
-      largest = largest.cwiseMax(reach(draw_body(row.look, pose, Camera(), row.color)));
+      if (growth(pose) <= kMostGrowth)
+        largest = largest.cwiseMax(reach(draw_body(row.look, pose, Camera(), row.color)));
   }
   const Vector2 cell(panel.x() / static_cast<double>(columns), panel.y() / static_cast<double>(rows.size()));
   const Vector2 room(cell.x(), cell.y() - kTitle - kTimes);
@@ -74,12 +81,17 @@ std::string PoseStrip::script(const Frame& frame, const FigureSize& size) const 
     add_label(row.title, 0.0, bottom + cell.y() - 0.4 * kTitle, "left tc '#505050'");
     for (std::size_t p = 0; p < row.poses.size(); ++p) {
       const Vector2 center(cell.x() * (static_cast<double>(p) + 0.5), bottom + kTimes + 0.5 * room.y());
+      if (shows_times) add_label(short_text(row.poses[p].time) + " s", center.x(), bottom + 0.4 * kTimes, "center");
+      if (!(growth(row.poses[p]) <= kMostGrowth)) {
+        const double times = growth(row.poses[p]);
+        add_label(std::isfinite(times) ? fmt::format("× {:.2g}", times) : "not finite", center.x(), center.y(),
+                  "center tc '#505050'");
+        continue;
+      }
       const Drawing drawing = moved(draw_body(row.look, row.poses[p], camera, row.color), center);
       const PlotElements elements = plot_elements(drawing, fmt::format("strip{}_{}", r, p));
       script += elements.data;
       if (!elements.elements.empty()) plot += (plot.empty() ? "" : ", ") + elements.elements;
-      if (shows_times)
-        add_label(fmt::format("{:.4g} s", row.poses[p].time), center.x(), bottom + 0.4 * kTimes, "center");
     }
   }
   script += "plot " + plot + "\n" + end_labels;

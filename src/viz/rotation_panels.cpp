@@ -10,8 +10,11 @@
 namespace trajet::detail {
 namespace {
 
-/// Drifts below this are rounding.
-constexpr double kRounding = 1e-16;
+/// Drifts below this are rounding: a quantity of which no row has more is not drawn.
+constexpr double kRounding = 1e-13;
+constexpr double kLeast = 1e-16;
+/// Beyond this a line is cut: the method has failed.
+constexpr double kMost = 1e3;
 
 struct Quantity {
   const char* title;
@@ -19,7 +22,7 @@ struct Quantity {
 };
 
 constexpr Quantity kQuantities[] = {
-    {"|det R - 1|",
+    {"|det R − 1|",
      [](const RotationDeviation& deviation) -> std::optional<double> {
        if (!deviation.determinant) return std::nullopt;
        return std::abs(*deviation.determinant - 1.0);
@@ -32,8 +35,10 @@ constexpr Quantity kQuantities[] = {
 std::vector<std::vector<double>> points(const ComparisonRow& row, const Quantity& quantity) {
   std::vector<std::vector<double>> points;
   for (const RotationSample& sample : row.rotation_history)
-    if (const auto value = quantity.of(sample.deviation); value && *value > 0.0)
-      points.push_back({sample.time, std::max(*value, kRounding)});
+    if (const auto value = quantity.of(sample.deviation); value && *value > 0.0) {
+      if (!(*value <= kMost)) break;
+      points.push_back({sample.time, std::max(*value, kLeast)});
+    }
   return points;
 }
 
@@ -44,23 +49,24 @@ RotationPanels::RotationPanels(const Comparison& comparison, const std::vector<R
   if (!comparison.turns) return;
   for (const Quantity& quantity : kQuantities) {
     Panel panel{quantity.title, {}};
+    double largest = 0.0;
     for (const RowStyle& style : styles) {
       int dash = 1;
       for (const ComparisonRow& row : comparison.rows) {
         if (!style.is_of(row) || !row.succeeded()) continue;
         std::vector<std::vector<double>> line = points(row, quantity);
+        for (const auto& point : line) largest = std::max(largest, point[1]);
         if (!line.empty()) panel.lines.push_back({std::move(line), style.color, dash++});
       }
     }
-    if (!panel.lines.empty()) panels_.push_back(std::move(panel));
+    if (largest > kRounding) panels_.push_back(std::move(panel));
   }
 }
 
 std::string RotationPanels::script(int bottom, const FigureSize& size) const {
   std::string script =
       "set termoption enhanced\nunset label\nunset key\nset border lw 1.2 lc '#404040'\n"
-      "set grid lc '#d8d8d8' lt 1 lw 0.8\nunset logscale\nset logscale y\nset format x '%g'\n"
-      "set format y '10^{%T}'\nset xlabel 'time [s]'\nunset ylabel\n";
+      "set grid lc '#d8d8d8' lt 1 lw 0.8\nunset logscale\nset logscale y\nset xlabel 'time [s]'\nunset ylabel\n";
   constexpr double kLeft = 70.0, kGap = 88.0, kRight = 20.0, kBelow = 62.0, kAbove = 30.0;  // pixels
   const auto count = static_cast<double>(panels_.size());
   const double width = (size.width - kLeft - kRight - (count - 1.0) * kGap) / count;

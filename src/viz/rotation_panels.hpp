@@ -11,7 +11,7 @@ namespace trajet::detail {
 
 /// Panels side by side of what becomes of the bodies that turn, against time: the stretch |det R - 1|, the angle from
 /// the reference's orientation, the drifts of energy and angular momentum. Those are left out of which no row knows
-/// anything.
+/// anything but rounding.
 class RotationPanels {
  public:
   RotationPanels(const Comparison& comparison, const std::vector<RowStyle>& styles);

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <optional>
 
 #include "path_panel.hpp"
 #include "plot_panel.hpp"
@@ -20,6 +22,8 @@ using detail::Range;
 constexpr std::size_t kMostBodies = 3;
 constexpr std::size_t kMostStates = 4;
 constexpr std::size_t kMostImpactLines = 40;
+/// Of a line below the title, pixels.
+constexpr int kNoteHeight = 20;
 /// Paths in space that are so many times as wide as high lie below the other panels.
 constexpr double kWide = 1.7;
 
@@ -31,27 +35,59 @@ struct Quantity {
   int index;     // in the state, of its first component
 };
 
-/// In the course's colours; the fourth one it leaves free.
+double component(const Curve& curve, std::size_t point, bool is_rate, int index) {
+  return (is_rate ? curve.rates : curve.states)[point][static_cast<std::size_t>(index)];
+}
+
+/// The largest component of a vector along a curve, 0 without a curve.
+double largest(const Curve& curve, bool is_rate, int index) {
+  double result = 0.0;
+  for (std::size_t point = 0; point < curve.times.size(); ++point)
+    for (int i = 0; i < 3; ++i) result = std::max(result, std::abs(component(curve, point, is_rate, index + i)));
+  return result;
+}
+
+/// What is smaller than this, against what it is measured by, is rounding.
+constexpr double kRounding = 1e-12;
+
+/// What there is to tell of a body against time, in the course's colours; the fourth one it leaves free. Without what
+/// is 0 throughout, or by rounding alone not 0: what would not change the quantity before it within the run.
 std::vector<Quantity> quantities_of(const World::Body& body, const Curve& curve) {
-  const auto is_zero = [&](int first, int count, const std::vector<std::vector<double>>& points) {
-    return std::ranges::all_of(points, [&](const std::vector<double>& point) {
-      return std::all_of(point.begin() + first, point.begin() + first + count, [](double x) { return x == 0.0; });
-    });
-  };
-  std::vector<Quantity> quantities;
+  const double duration = curve.times.empty() ? 0.0 : std::abs(curve.times.back() - curve.times.front());
   const BodySlice slice = body.slice();
-  const bool only_turns = body.rotation && is_zero(slice.first, BodySlice::kMovingSize, curve.states) &&
-                          is_zero(slice.first, BodySlice::kMovingSize, curve.rates);
-  if (!only_turns)
+  const double position = largest(curve, false, slice.position_index()) + detail::look(body).radius();
+  const double velocity = largest(curve, false, slice.velocity_index()),
+               acceleration = largest(curve, true, slice.velocity_index());
+  const bool moves = velocity * duration > kRounding * position;
+  const bool accelerates =
+      acceleration * duration > kRounding * std::max(velocity, position / std::max(duration, 1e-300));
+  std::vector<Quantity> quantities;
+  if (moves || !body.rotation || curve.times.empty())
     quantities = {{"position [m]", "#0050c8", false, slice.position_index()},
-                  {"velocity [m/s]", "#008a20", false, slice.velocity_index()},
-                  {"acceleration [m/s²]", "#d01010", true, slice.velocity_index()}};
+                  {"velocity [m/s]", "#008a20", false, slice.velocity_index()}};
+  if (accelerates || curve.times.empty())
+    quantities.push_back({"acceleration [m/s²]", "#d01010", true, slice.velocity_index()});
   if (body.rotation) {
     const bool is_in_world = body.rotation->layout.frame == Frame::world;
     quantities.push_back({is_in_world ? "ω, world [rad/s]" : "ω, body's frame [rad/s]", "#b06000", false,
                           slice.angular_velocity_index()});
   }
   return quantities;
+}
+
+/// The value of a vector that does not change along a curve but by rounding, as its first point has it.
+std::optional<Vector3> constant_value(const Curve& curve, const Quantity& quantity) {
+  const double size = largest(curve, quantity.is_rate, quantity.index);
+  Vector3 value = Vector3::Zero();
+  for (int i = 0; i < 3; ++i) {
+    Range range;
+    for (std::size_t point = 0; point < curve.times.size(); ++point)
+      range.include(component(curve, point, quantity.is_rate, quantity.index + i));
+    if (!(range.extent() <= kRounding * size)) return std::nullopt;
+    if (!range.is_empty()) value[i] = component(curve, 0, quantity.is_rate, quantity.index + i);
+    if (std::abs(value[i]) <= kRounding * size) value[i] = 0.0;
+  }
+  return value;
 }
 
 /// Components differ by their dashes, which survive a copier and any eye.
@@ -74,8 +110,14 @@ class RunFigure {
     const bool moves = std::ranges::any_of(curves_, [](const Curve& curve) { return !curve.times.empty(); });
     if (moves || paths_.is_empty()) body_count_ = std::min(world_.bodies.size(), kMostBodies);
     for (std::size_t b = 0; b < body_count_; ++b) {
-      const World::Body& body = world_.bodies[b];
-      quantities_.push_back(quantities_of(body, curves_[static_cast<std::size_t>(body.group)]));
+      const Curve& curve = curve_of(world_.bodies[b]);
+      Plotted plotted{b, quantities_of(world_.bodies[b], curve)};
+      const bool is_constant = std::ranges::all_of(
+          plotted.quantities, [&](const Quantity& quantity) { return constant_value(curve, quantity).has_value(); });
+      if (is_constant && moves && !paths_.is_empty())
+        notes_.push_back(constants(plotted));
+      else
+        plotted_.push_back(std::move(plotted));
     }
     state_count_ = std::min(world_.states.size(), kMostStates);
     for (std::size_t b = 0; b < body_count_; ++b) {
@@ -84,18 +126,18 @@ class RunFigure {
       const detail::Look shown = detail::look(body);
       const bool is_one_line = shown.points.size() == 1;
       if (body.rotation && poses.size() > 1 && !shown.is_empty() && !is_one_line)
-        strip_.add_row(body.name + ", seen from its centre", shown, poses, detail::body_color(b));
+        strip_.add_row(body.name + ", seen from its centre", shown, poses, detail::body_color(world_, b));
     }
   }
 
   Figure build() {
     const bool has_paths = !paths_.is_empty();
     std::size_t rows = state_count_;
-    for (const auto& quantities : quantities_) rows = std::max(rows, quantities.size());
-    columns_ = body_count_ + (state_count_ > 0 ? 1 : 0);
+    for (const Plotted& plotted : plotted_) rows = std::max(rows, plotted.quantities.size());
+    columns_ = plotted_.size() + (state_count_ > 0 ? 1 : 0);
     // wide paths lie below; what is against time stands beside them otherwise, one column for each body
     const bool paths_lie = has_paths && columns_ > 0 && paths_.aspect() > kWide;
-    if (paths_lie && columns_ == 1 && body_count_ == 1) {
+    if (paths_lie && columns_ == 1 && plotted_.size() == 1) {
       quantity_columns_ = 2;
       rows = (rows + 1) / 2;
     }
@@ -103,16 +145,17 @@ class RunFigure {
     if (has_paths && !paths_lie) ++columns_;
     const int width = static_cast<int>(columns_ == 1 ? 760 : 560 * columns_);
     if (paths_lie) path_height_ = std::clamp(static_cast<int>((width - 170) / paths_.aspect()) + 120, 280, 560);
-    figure_.size = {width,
-                    static_cast<int>(110 + 230 * std::max<std::size_t>(rows, 2)) + path_height_ + strip_.height()};
+    figure_.title = title();
+    figure_.size = {width, static_cast<int>(32 + 230 * std::max<std::size_t>(rows, 2)) + head_height() + path_height_ +
+                               strip_.height()};
     figure_.script = fmt::format("set multiplot\nset label 1 {} at screen 0.5, screen {:.4f} center font ',21'\n",
                                  quoted(title()), 1.0 - 24.0 / figure_.size.height);
     add_subtitle();
     figure_.script +=
         "set border lw 1.2 lc '#404040'\nset grid lc '#d8d8d8' lt 1 lw 0.8\nset style line 9 lc '#909090' lw 1.2 dt "
         "(2,4)\n";
-    for (std::size_t b = 0; b < body_count_; ++b) add_body(b, b);
-    if (state_count_ > 0) add_states(body_count_);
+    for (std::size_t column = 0; column < plotted_.size(); ++column) add_body(plotted_[column], column);
+    if (state_count_ > 0) add_states(plotted_.size());
     if (has_paths) {
       figure_.script += paths_.script(
           paths_lie ? below(strip_.height() + 12, path_height_ - 44) : path_frame(columns_ - 1), figure_.size);
@@ -124,7 +167,35 @@ class RunFigure {
   }
 
  private:
+  /// A body with what is drawn of it against time.
+  struct Plotted {
+    std::size_t body;
+    std::vector<Quantity> quantities;
+  };
+
   std::string title() const { return result_.title.empty() ? result_.scene : result_.title; }
+
+  const Curve& curve_of(const World::Body& body) const { return curves_[static_cast<std::size_t>(body.group)]; }
+
+  /// What stands in the place of curves that are all constant.
+  std::string constants(const Plotted& plotted) const {
+    const World::Body& body = world_.bodies[plotted.body];
+    std::string text = world_.bodies.size() > 1 ? body.name + ": " : "";
+    const char* separator = "";
+    for (const Quantity& quantity : plotted.quantities) {
+      const Vector3 value = constant_value(curve_of(body), quantity).value_or(Vector3::Zero());
+      const std::string label = quantity.label;
+      const std::size_t unit = label.find(" [");
+      text += fmt::format("{}{} = ({}, {}, {}) {}", separator, label.substr(0, unit), detail::short_text(value.x()),
+                          detail::short_text(value.y()), detail::short_text(value.z()),
+                          label.substr(unit + 2, label.size() - unit - 3));
+      separator = "; ";
+    }
+    return text + ", constant";
+  }
+
+  /// Pixels of the titles, above all panels.
+  int head_height() const { return 78 + kNoteHeight * static_cast<int>(notes_.size()); }
 
   void add_subtitle() {
     std::string text = "method " + result_.method;
@@ -133,7 +204,9 @@ class RunFigure {
     if (world_.states.size() > state_count_)
       text += fmt::format("; the first {} of {} states", state_count_, world_.states.size());
     if (!result_.impacts.empty()) text += fmt::format("; impacts: {}", result_.impacts.size());
-    figure_.script += fmt::format("set label 2 {} at screen 0.5, screen {:.4f} center tc '#505050'\n", quoted(text),
+    std::string lines = quoted(text);
+    for (const std::string& note : notes_) lines += ".\"\\n\"." + quoted(note);
+    figure_.script += fmt::format("set label 2 {} at screen 0.5, screen {:.4f} center tc '#505050'\n", lines,
                                   1.0 - 48.0 / figure_.size.height);
   }
 
@@ -141,7 +214,7 @@ class RunFigure {
   detail::Frame frame(std::size_t column, std::size_t row, std::size_t rows) const {
     const double width = 1.0 / static_cast<double>(columns_), pixel_x = 1.0 / figure_.size.width,
                  pixel_y = 1.0 / figure_.size.height;
-    const double top = 1.0 - 78.0 * pixel_y;
+    const double top = 1.0 - head_height() * pixel_y;
     const double height = (top - (16.0 + strip_.height() + path_height_) * pixel_y) / static_cast<double>(rows);
     const double left = width * static_cast<double>(column);
     const double panel_top = top - height * static_cast<double>(row);
@@ -192,10 +265,6 @@ class RunFigure {
     prints_title_ = false;
   }
 
-  static double component(const Curve& curve, std::size_t point, bool is_rate, int index) {
-    return (is_rate ? curve.rates : curve.states)[point][static_cast<std::size_t>(index)];
-  }
-
   Range times(const Curve& curve) const {
     Range range;
     for (const double t : curve.times) range.include(t);
@@ -203,16 +272,27 @@ class RunFigure {
     return range;
   }
 
-  void add_body(std::size_t index, std::size_t column) {
-    const World::Body& body = world_.bodies[index];
-    const Curve& curve = curves_[static_cast<std::size_t>(body.group)];
-    const std::vector<Quantity>& quantities = quantities_[index];
+  /// Which coordinates are not 0, or by rounding alone, in everything that is drawn of a body; all if none is.
+  std::array<bool, 3> moving_coordinates(const Plotted& plotted) const {
+    const Curve& curve = curve_of(world_.bodies[plotted.body]);
     std::array<bool, 3> moves{};
-    for (const Quantity& quantity : quantities)
+    for (const Quantity& quantity : plotted.quantities) {
+      const double rounding = kRounding * largest(curve, quantity.is_rate, quantity.index);
       for (std::size_t p = 0; p < curve.times.size(); ++p)
         for (int i = 0; i < 3; ++i)
-          moves[static_cast<std::size_t>(i)] |= component(curve, p, quantity.is_rate, quantity.index + i) != 0.0;
+          moves[static_cast<std::size_t>(i)] |=
+              std::abs(component(curve, p, quantity.is_rate, quantity.index + i)) > rounding;
+    }
     if (moves == std::array<bool, 3>{}) moves.fill(true);
+    return moves;
+  }
+
+  void add_body(const Plotted& plotted, std::size_t column) {
+    const World::Body& body = world_.bodies[plotted.body];
+    const Curve& curve = curve_of(body);
+    const std::vector<Quantity>& quantities = plotted.quantities;
+    const std::array<bool, 3> moves = moving_coordinates(plotted);
+    const bool is_alone = std::ranges::count(moves, true) == 1;
 
     for (std::size_t q = 0; q < quantities.size(); ++q) {
       const Quantity& quantity = quantities[q];
@@ -226,13 +306,13 @@ class RunFigure {
           if (moves[static_cast<std::size_t>(i)]) values.include(value);
         }
       }
-      const std::string name = fmt::format("body{}_{}", index, q);
+      const std::string name = fmt::format("body{}_{}", plotted.body, q);
       figure_.script += detail::data_block(name, rows);
       std::string lines;
       for (std::size_t i = 0; i < 3; ++i)
         if (moves[i])
           lines += fmt::format("{}${} using 1:{} with lines lw 2.4 lc '{}' {} title '{}'", lines.empty() ? "" : ", ",
-                               name, i + 2, quantity.color, kDashes[i], "xyz"[i]);
+                               name, i + 2, quantity.color, kDashes[is_alone ? 0 : i], "xyz"[i]);
       figure_.script += impact_lines(body.name);
       const std::string owner = world_.bodies.size() > 1 ? body.name + ": " : "";
       const std::size_t rows_of_panels = (quantities.size() + quantity_columns_ - 1) / quantity_columns_;
@@ -263,7 +343,8 @@ class RunFigure {
   std::vector<Curve> curves_;
   detail::PathPanel paths_;
   detail::PoseStrip strip_;
-  std::vector<std::vector<Quantity>> quantities_;  // of each body that is drawn
+  std::vector<Plotted> plotted_;
+  std::vector<std::string> notes_;  // lines below the title
   std::size_t body_count_ = 0;
   std::size_t state_count_ = 0;
   std::size_t columns_ = 1;           // of panels one above another

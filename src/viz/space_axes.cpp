@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace trajet::detail {
 
@@ -37,11 +38,22 @@ double round_step(double least) {
   return 10.0 * power;
 }
 
+struct Mark {
+  double value;
+  std::string text;
+};
+
+std::string mark_text(double value, double step, double size) {
+  const std::optional<int> decimals = mark_decimals(step, size);
+  return decimals ? number_text(value, *decimals) : short_text(value);
+}
+
 /// The marks of an axis, `spacing` pixels apart or more; `least`, where there would be no two of them.
-std::vector<double> marks(double low, double high, double pixels, double spacing, double least) {
-  std::vector<double> values;
+std::vector<Mark> marks(double low, double high, double pixels, double spacing, double least) {
+  std::vector<Mark> values;
   const double step = round_step((high - low) * spacing / std::max(pixels, 1.0));
-  for (double k = std::ceil(low / step); k * step <= high; ++k) values.push_back(k * step);
+  for (double k = std::ceil(low / step); k * step <= high; ++k)
+    values.push_back({k * step, mark_text(k * step, step, std::max(std::abs(low), std::abs(high)))});
   return values.size() < 2 && spacing > least ? marks(low, high, pixels, std::max(0.7 * spacing, least), least)
                                               : values;
 }
@@ -55,8 +67,8 @@ class Labels {
     axes_.labels += fmt::format("set label {} {} at first {:.1f},{:.1f} {}\n", number_, text, at.x(), at.y(), style);
     axes_.end_labels += fmt::format("unset label {}\n", number_++);
   }
-  void add(double value, const Vector2& at, const std::string& style) {
-    add(fmt::format("'{:.6g}'", value == 0.0 ? 0.0 : value), at, style);
+  void add(const Mark& mark, const Vector2& at, const std::string& style) {
+    add(fmt::format("'{}'", mark.text), at, style);
   }
 
  private:
@@ -94,23 +106,26 @@ SpaceAxes space_axes(const Eigen::AlignedBox3d& box, const View& view) {
                           at(low.x(), low.y(), low.z())});
 
   // x: along the front
-  for (const double x : marks(low.x(), high.x(), length(0), 46.0, 32.0)) {
+  for (const Mark& mark : marks(low.x(), high.x(), length(0), 46.0, 32.0)) {
+    const double x = mark.value;
     result.floor.push_back({at(x, low.y(), low.z()), at(x, high.y(), low.z())});
     result.walls.push_back({at(x, high.y(), low.z()), at(x, high.y(), high.z())});
-    labels.add(x, at(x, low.y(), low.z()) + Vector2(-6.0, -13.0), "center");
+    labels.add(mark, at(x, low.y(), low.z()) + Vector2(-6.0, -13.0), "center");
   }
   labels.add("'x [m]'", at(0.5 * (low.x() + high.x()), low.y(), low.z()) + Vector2(-24.0, -38.0), "center");
   // y: along the right
-  for (const double y : marks(low.y(), high.y(), length(1), 34.0, 30.0)) {
+  for (const Mark& mark : marks(low.y(), high.y(), length(1), 34.0, 30.0)) {
+    const double y = mark.value;
     result.floor.push_back({at(low.x(), y, low.z()), at(high.x(), y, low.z())});
     result.walls.push_back({at(low.x(), y, low.z()), at(low.x(), y, high.z())});
-    labels.add(y, at(high.x(), y, low.z()) + Vector2(8.0, -7.0), "left");
+    labels.add(mark, at(high.x(), y, low.z()) + Vector2(8.0, -7.0), "left");
   }
   labels.add("'y [m]'", at(high.x(), 0.5 * (low.y() + high.y()), low.z()) + Vector2(32.0, -26.0), "left");
   // z: on the left
-  for (const double z : marks(low.z(), high.z(), length(2), 36.0, 17.0)) {
+  for (const Mark& mark : marks(low.z(), high.z(), length(2), 36.0, 17.0)) {
+    const double z = mark.value;
     result.walls.push_back({at(low.x(), low.y(), z), at(low.x(), high.y(), z), at(high.x(), high.y(), z)});
-    labels.add(z, at(low.x(), low.y(), z) + Vector2(-9.0, 0.0), "right");
+    labels.add(mark, at(low.x(), low.y(), z) + Vector2(-9.0, 0.0), "right");
     result.axes.push_back({at(low.x(), low.y(), z), at(low.x(), low.y(), z) + Vector2(-5.0, 0.0)});
   }
   labels.add("'z [m]'", at(low.x(), low.y(), 0.5 * (low.z() + high.z())) + Vector2(-76.0, 0.0), "center rotate by 90");

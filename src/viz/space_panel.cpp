@@ -3,17 +3,18 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 #include <variant>
 
 #include "obstacle_faces.hpp"
+#include "polyline.hpp"
 #include "space_axes.hpp"
 
 namespace trajet::detail {
 
 namespace {
 
-constexpr Color kObstacleColor = 0x8a8a80;
 constexpr double kObstacleOpacity = 0.5;
 /// Beyond this ratio of the sides of the axes' box each axis has a scale of its own.
 constexpr double kLongestBox = 16.0;
@@ -21,6 +22,17 @@ constexpr double kLongestBox = 16.0;
 constexpr double kSmallestBody = 2.0, kSmallestDetail = 9.0;
 
 }  // namespace
+
+Eigen::AlignedBox3d extent(const Look& look, const Pose& pose) {
+  Eigen::AlignedBox3d box;
+  const auto include = [&](const Vector3& p_B) { box.extend(Vector3(pose.p_WB + pose.R_WB * p_B)); };
+  for (const Face& face : look.faces)
+    for (const Vector3& corner : face.corners) include(corner);
+  for (const Vector3& point : look.points) include(point);
+  box.extend(Vector3(pose.p_WB.array() - look.ball_radius));
+  box.extend(Vector3(pose.p_WB.array() + look.ball_radius));
+  return box;
+}
 
 void SpacePanel::add_path(std::vector<Vector3> points, const std::string& style, const std::string& title) {
   for (const Vector3& point : points)
@@ -35,18 +47,13 @@ void SpacePanel::add_shadowed_path(std::vector<Vector3> points, const std::strin
 
 void SpacePanel::add_body(const Look& look, const Pose& pose, Color color) {
   if (look.is_empty() || !pose.p_WB.allFinite() || !pose.R_WB.allFinite()) return;
-  const auto include = [&](const Vector3& p_B) { motion_.extend(Vector3(pose.p_WB + pose.R_WB * p_B)); };
-  for (const Face& face : look.faces)
-    for (const Vector3& corner : face.corners) include(corner);
-  for (const Vector3& point : look.points) include(point);
-  motion_.extend(Vector3(pose.p_WB.array() - look.ball_radius));
-  motion_.extend(Vector3(pose.p_WB.array() + look.ball_radius));
+  motion_.extend(extent(look, pose));
   has_turning_solid_ = has_turning_solid_ || look.turns;
   bodies_.push_back({look, pose, color});
 }
 
 Eigen::AlignedBox3d SpacePanel::axes_box() const {
-  const Eigen::AlignedBox3d box = with_obstacles(motion_, obstacles_);
+  const Eigen::AlignedBox3d box = with_obstacles(shown_.value_or(motion_), obstacles_);
   Eigen::AlignedBox3d padded = box;
   for (int i = 0; i < 3; ++i) {
     const Range range = Range{box.min()[i], box.max()[i]}.padded();
@@ -94,9 +101,10 @@ std::string SpacePanel::script(const Frame& frame, const FigureSize& size) const
   std::vector<Drawing> drawings;
   for (const World::Obstacle& obstacle : obstacles_) {
     const auto* ball = std::get_if<Sphere>(&obstacle.shape);
-    Drawing drawing = ball != nullptr ? draw_body({.ball_radius = ball->radius, .turns = true},
-                                                  {0.0, ball->center, Matrix3::Identity()}, view.camera, kObstacleColor)
-                                      : draw_faces(obstacle_faces(obstacle.shape, box), view.camera, kObstacleColor);
+    Drawing drawing = ball != nullptr
+                          ? draw_body({.ball_radius = ball->radius, .turns = true},
+                                      {0.0, ball->center, Matrix3::Identity()}, view.camera, obstacle_color(obstacle))
+                          : draw_faces(obstacle_faces(obstacle.shape, box), view.camera, obstacle_color(obstacle));
     drawing.opacity = kObstacleOpacity;
     if (std::holds_alternative<Plane>(obstacle.shape))
       add(plot_elements(shifted(std::move(drawing)), fmt::format("plane{}", plot.size())));
@@ -104,14 +112,21 @@ std::string SpacePanel::script(const Frame& frame, const FigureSize& size) const
       drawings.push_back(shifted(std::move(drawing)));
   }
   add_lines("floor", axes.floor, 0xc8c8c8, 0.8);
+  const auto within = [this](const std::vector<Vector3>& points, const Eigen::AlignedBox3d& limits) {
+    return shown_ ? clipped(points, limits) : std::vector<std::vector<Vector3>>{points};
+  };
   const auto add_paths = [&](const std::vector<Path>& paths, const std::string& name, bool on_floor) {
     for (std::size_t i = 0; i < paths.size(); ++i) {
       std::vector<std::vector<double>> rows;
-      for (Vector3 point : paths[i].points) {
-        if (on_floor) point.z() = box.min().z();
-        const Vector2 at = view.pixels(point);
-        rows.push_back({at.x(), at.y()});
+      for (const std::vector<Vector3>& part : within(paths[i].points, box)) {
+        if (!rows.empty()) rows.emplace_back();
+        for (Vector3 point : part) {
+          if (on_floor) point.z() = box.min().z();
+          const Vector2 at = view.pixels(point);
+          rows.push_back({at.x(), at.y()});
+        }
       }
+      if (rows.empty()) rows.push_back({std::nan(""), std::nan("")});  // its title is still in the legend
       const std::string block = fmt::format("{}{}", name, i);
       const std::string& title = paths[i].title;
       add({data_block(block, rows),
@@ -123,7 +138,8 @@ std::string SpacePanel::script(const Frame& frame, const FigureSize& size) const
   const double pixels_per_metre = view.camera.matrix().row(1).norm();
   for (const Body& body : bodies_) {
     const double radius = body.look.radius() * pixels_per_metre;
-    if (radius >= kSmallestBody)
+    const bool is_shown = !shown_ || box.contains(extent(body.look, body.pose));
+    if (is_shown && radius >= kSmallestBody)
       drawings.push_back(shifted(draw_body(body.look, body.pose, view.camera, body.color, radius < kSmallestDetail)));
   }
   std::ranges::stable_sort(drawings, {}, &Drawing::nearness);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -9,6 +10,9 @@
 #include "trajet/viz/gnuplot.hpp"
 
 namespace trajet::detail {
+
+/// What a body takes up as it stands, world frame.
+Eigen::AlignedBox3d extent(const Look& look, const Pose& pose);
 
 /// The panel of a figure that shows what happens in space: paths, solids as they stand, obstacles, within axes.
 ///
@@ -21,6 +25,9 @@ class SpacePanel {
   /// A path with its shadow on the floor.
   void add_shadowed_path(std::vector<Vector3> points, const std::string& style, const std::string& title);
   void add_body(const Look& look, const Pose& pose, Color color);
+  /// The picture shows this, and obstacles near by, instead of all that was added; paths are cut where they leave it,
+  /// and solids that reach beyond are left out.
+  void show(const Eigen::AlignedBox3d& box) { shown_ = box; }
   void add_obstacles(const std::vector<World::Obstacle>& obstacles) { obstacles_ = obstacles; }
 
   /// How many times as wide as high the picture is.
@@ -46,6 +53,7 @@ class SpacePanel {
   std::vector<Body> bodies_;
   std::vector<World::Obstacle> obstacles_;
   Eigen::AlignedBox3d motion_;  // of all paths and solids
+  std::optional<Eigen::AlignedBox3d> shown_;
   bool has_turning_solid_ = false;
 };
 

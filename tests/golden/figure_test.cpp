@@ -2,6 +2,7 @@
 #include <stdlib.h>
 
 #include <algorithm>
+#include <cmath>
 #include <sstream>
 
 #include "program.hpp"
@@ -29,12 +30,14 @@ int count(const std::string& text, const std::string& part) {
   return found;
 }
 
-std::string figure(std::vector<std::string> arguments) {
+/// The SVG that `--plot` makes; `warning`: part of what is said on standard error, or nothing is.
+std::string figure(std::vector<std::string> arguments, const std::string& warning = "") {
   const TemporaryFolder folder;
   arguments.insert(arguments.end(), {"--quiet", "--plot", folder.file("f.svg")});
   const ProgramResult result = run_trajet(arguments);
   EXPECT_EQ(result.exit_code, 0) << result.err;
-  EXPECT_EQ(result.err, "");
+  EXPECT_EQ(result.err.empty(), warning.empty()) << result.err;
+  EXPECT_NE(result.err.find(warning), std::string::npos) << result.err;
   const std::string svg = read_text(folder.file("f.svg"));
   EXPECT_TRUE(svg.starts_with("<?xml") && svg.find("</svg>") != std::string::npos);
   return svg;
@@ -59,6 +62,96 @@ TEST(Figure, LeavesOutWhatDoesNotMove) {
   const std::string plane = words(figure({"run", kExamples + "notes/rifle_shot.toml"}));
   EXPECT_NE(plane.find("z [m]"), std::string::npos);
   EXPECT_EQ(plane.find("y [m]"), std::string::npos);
+}
+
+/// How many corners the line of a colour has that has the most.
+std::size_t most_corners(const std::string& svg, const std::string& color) {
+  std::size_t most = 0;
+  const std::string begin = "<path stroke='" + color + "'";
+  for (std::size_t at = svg.find(begin); at != std::string::npos; at = svg.find(begin, at + 1)) {
+    const std::string path = svg.substr(at, svg.find("/>", at) - at);
+    most = std::max(most, static_cast<std::size_t>(std::ranges::count(path, ',')));
+  }
+  return most;
+}
+
+constexpr const char* kBlue = "rgb(  0,  80, 200)";
+
+TEST(Figure, HasSmoothCurvesInTheScaleOfEachAxis) {
+  // 180 m far, 0.5 m down: a parabola of the width of the panel is more than five straight lines
+  EXPECT_GT(most_corners(figure({"run", kExamples + "notes/rifle_shot.toml"}), kBlue), 15U);
+  EXPECT_GT(most_corners(figure({"run", kExamples + "notes/cube.toml"}), kBlue), 15U);
+}
+
+TEST(Figure, HasNamesForPeople) {
+  const TemporaryFolder folder;
+  const std::string scene =
+      folder.write("s.toml", "title = \"a < b & c\"\n[time]\nend = 1\n[[body]]\nname = \"b\"\nvelocity = [1, 2, 3]\n");
+  const std::string svg = figure({"run", scene});
+  EXPECT_NE(svg.find("<title>a &lt; b &amp; c</title>"), std::string::npos);
+  EXPECT_NE(svg.find("<title>x</title>"), std::string::npos);
+  EXPECT_NE(svg.find("<title>b</title>"), std::string::npos) << "the path";
+  EXPECT_EQ(svg.find("<title>Gnuplot"), std::string::npos);
+  EXPECT_EQ(svg.find("<title>gnuplot_plot"), std::string::npos);
+}
+
+TEST(Figure, OfOneCoordinateIsASolidLineWithTypographicMinus) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write(
+      "s.toml", "[time]\nend = 1\n[[body]]\nname = \"b\"\nposition = [0, 0, 5]\nacceleration = [0, 0, -10]\n");
+  const std::string svg = figure({"run", scene});
+  EXPECT_EQ(svg.find("stroke-dasharray"), std::string::npos);
+  const std::string text = words(svg);
+  EXPECT_NE(text.find("\u22125"), std::string::npos) << text;
+  EXPECT_EQ(text.find("-5"), std::string::npos);
+}
+
+TEST(Figure, TellsWhatIsConstantInsteadOfDrawingIt) {
+  const std::string text = words(figure({"run", kExamples + "notes/rotated_vector.toml"}));
+  EXPECT_NE(text.find("ω, world = (0, 0, 1.571) rad/s, constant"), std::string::npos) << text;
+  EXPECT_EQ(text.find("time [s]"), std::string::npos);
+  // a constant beside what changes has its panel
+  EXPECT_NE(words(figure({"run", kExamples + "notes/free_fall.toml"})).find("acceleration"), std::string::npos);
+}
+
+TEST(Figure, HasNoPanelForRounding) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write(
+      "s.toml",
+      "[time]\nend = 1\n[[body]]\nname = \"b\"\nvelocity = [1, 0, 0]\nacceleration = [0, \"1e-15*sin(9*t)\", 0]\n");
+  const std::string svg = figure({"run", scene}), text = words(svg);
+  EXPECT_NE(text.find("velocity [m/s]"), std::string::npos);
+  EXPECT_EQ(text.find("acceleration"), std::string::npos);
+  EXPECT_EQ(svg.find("<title>y</title>"), std::string::npos);
+  EXPECT_EQ(words(figure({"compare", kExamples + "t_handle.toml", "--methods", "taylor"})).find("|det R"),
+            std::string::npos);
+}
+
+TEST(Figure, HasTheColoursOfTheScene) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("s.toml", R"([time]
+end = 1
+[[body]]
+name = "a"
+shape = "sphere"
+radius = 0.3
+velocity = [1, 2, 3]
+color = "#ff4000"
+[[body]]
+name = "white"
+velocity = [3, 2, 1]
+color = "white"
+[[obstacle]]
+name = "o"
+shape = "box"
+center = [3, 0, 0]
+size = [1, 1, 1]
+color = "navy"
+)");
+  const std::string svg = figure({"run", scene});
+  EXPECT_GE(count(svg, "stroke='rgb(255,  64,   0)'"), 1) << "the path";
+  EXPECT_GE(count(svg, "stroke='rgb(  0,   0, 102)'"), 1) << "the edges of the box, a fifth darker";
+  EXPECT_GE(count(svg, "stroke='rgb(179, 179, 179)'"), 1) << "white on white paper";
 }
 
 /// Each `<polygon fill = 'COLOR' … points = 'x,y …'/>` of an SVG.
@@ -174,7 +267,62 @@ TEST(Figure, OfAComparisonHasTheCoursesColours) {
   const std::string shown = words(figure({"compare", drag, "--methods", "rk4", "--show", "particle.z"}));
   EXPECT_NE(shown.find("particle.z [m]"), std::string::npos);
   EXPECT_EQ(shown.find("y [m]"), std::string::npos);
-  figure({"compare", drag});  // all methods
+  figure({"compare", drag}, "warning: quadrature, ");  // all methods
+}
+
+/// All numbers among the words of an SVG.
+std::vector<double> numbers(const std::string& svg) {
+  std::string text = words(svg);
+  for (std::size_t at = 0; (at = text.find("\u2212", at)) != std::string::npos;) text.replace(at, 3, "-");
+  std::istringstream lines(text);
+  std::vector<double> found;
+  for (std::string word; lines >> word;) {
+    std::size_t used = 0;
+    try {
+      const double value = std::stod(word, &used);
+      if (used == word.size()) found.push_back(value);
+    } catch (const std::exception&) {
+    }
+  }
+  return found;
+}
+
+TEST(Figure, OfAComparisonIsNotSpoiltByAMethodThatRunsAway) {
+  const TemporaryFolder folder;
+  // Euler's method multiplies the amplitude by sqrt(1 + 10^2) a step
+  const std::string scene = folder.write("s.toml", R"([time]
+end = 10
+[[body]]
+name = "b"
+position = [1, 0, 0]
+acceleration = "-100*r"
+)");
+  const std::string svg = figure({"compare", scene, "--methods", "taylor,euler", "--steps", "10", "--rtols", "1e-6"});
+  const std::string text = words(svg);
+  EXPECT_NE(text.find("euler, 10 steps (leaves the picture)"), std::string::npos) << text;
+  EXPECT_NE(text.find("euler, 10 steps: an error of"), std::string::npos) << text;
+  EXPECT_NE(text.find("beyond the diagrams"), std::string::npos);
+  // ticks of the reference; words join 10 and its exponent
+  for (const double number : numbers(svg)) EXPECT_LT(std::abs(number), 1000.0);
+}
+
+TEST(Figure, OfAComparisonNamesWhatHasNoResult) {
+  const std::string text =
+      words(figure({"compare", kExamples + "heavy_top.toml", "--methods", "taylor,rk4"}, "no result: "));
+  EXPECT_NE(text.find("rk4: no result"), std::string::npos) << text;
+  EXPECT_NE(text.find("rk4: no result: whether event"), std::string::npos) << "the reason, at the foot";
+}
+
+TEST(Figure, OfAComparisonEndsWhereTheReferenceMeetsTheGround) {
+  // Euler's bullet flies on to 600 m, where the closed form is 5 m under the ground
+  const std::string svg =
+      figure({"compare", kExamples + "notes/rifle_shot.toml", "--methods", "euler", "--steps", "5"});
+  for (const double number : numbers(svg)) EXPECT_GE(number, 0.0);
+  EXPECT_NE(words(svg).find("error [m, m/s]"), std::string::npos);
+  const std::string one =
+      words(figure({"compare", kExamples + "notes/rifle_shot.toml", "--methods", "euler", "--steps", "1"}));
+  EXPECT_NE(one.find("euler, 1 step"), std::string::npos);
+  EXPECT_EQ(one.find("1 steps"), std::string::npos);
 }
 
 TEST(Figure, OfAComparisonShowsSolidsBelowOneAnother) {
@@ -184,7 +332,7 @@ TEST(Figure, OfAComparisonShowsSolidsBelowOneAnother) {
   for (const char* label :
        {"exact, 100 steps", "quaternion, 100 steps", "quaternion-normalized, 100 steps", "2 s", "10 s"})
     EXPECT_NE(text.find(label), std::string::npos) << label;
-  for (const char* label : {"|det R - 1|", "angle from the reference [rad]"})
+  for (const char* label : {"|det R − 1|", "angle from the reference [rad]"})
     EXPECT_NE(text.find(label), std::string::npos) << label;
   EXPECT_EQ(text.find("relative drift"), std::string::npos);  // of energy: the ball has no inertia
   // F101: 16 of the 32 faces of each of the three balls at six times, and the small ones on the way

@@ -297,6 +297,10 @@ TEST(Methods, AreListed) {
   const std::string out = run_trajet({"methods"}).out;
   for (const char* name : {"euler", "midpoint", "rk4", "dopri5", "ode45", "taylor"})
     EXPECT_NE(out.find(name), std::string::npos) << name;
+  // what others call them: by name
+  for (const char* known_as : {"notes: Runge-Kutta 4", "MATLAB: ode45", "notes: Euler normalised"})
+    EXPECT_NE(out.find(known_as), std::string::npos) << known_as;
+  EXPECT_EQ(out.find("(F"), std::string::npos) << out;
 }
 
 }  // namespace

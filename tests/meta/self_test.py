@@ -104,6 +104,21 @@ class Documents(Tree):
     def test_machine_path(self):
         self.check("run " + "/".join(["", "home", "me", "trajet"]), 1)
 
+    def test_page_outside_the_index(self):
+        self.check("", 0)
+        self.write("docs/README.md", "[rk4](methods/rk4.md)\n")
+        self.assertEqual(len(documents.violations(self.root)[0]), 1)
+        self.write("docs/README.md", "[rk4](methods/rk4.md) [a page](page.md#part)\n")
+        self.assertEqual(documents.violations(self.root)[0], [])
+
+    def test_numbers_of_the_notes(self):
+        self.check("Euler's method (F32), but not F# or IF12", 1)
+        self.check("as erratum A1 says; A1 alone is a problem of DETEST", 1)
+        self.check("`docs/methods/rk4.md`", 0)
+        self.write("docs/notes/particles.md", "Euler's method (F32)\n")
+        self.write("tests/x_test.cpp", "// F32\n")
+        self.assertEqual(documents.violations(self.root)[0], [])
+
 
 if __name__ == "__main__":
     unittest.main()

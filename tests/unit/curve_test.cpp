@@ -19,12 +19,14 @@ MotionRecord record(const std::string& scene) {
   return motion;
 }
 
-/// The largest distance of the line through the curve's points from the motion, in a component of the state.
-double error(const MotionRecord& motion, const Curve& curve, int component) {
+/// The largest distance of the line through the curve's points from the motion, in a component of the state, up to a
+/// time.
+double error(const MotionRecord& motion, const Curve& curve, int component, double until = 1e300) {
   double largest = 0.0;
   for (const auto& piece : motion.pieces(0))
     for (int k = 0; k <= 50; ++k) {
       const double t = piece.from + (piece.to - piece.from) * k / 50.0;
+      if (t > until) continue;
       const auto after = std::min(std::ranges::upper_bound(curve.times, t), curve.times.end() - 1);
       const auto i = static_cast<std::size_t>(after - curve.times.begin()), c = static_cast<std::size_t>(component);
       const double part = (t - curve.times[i - 1]) / (curve.times[i] - curve.times[i - 1]);
@@ -45,6 +47,37 @@ TEST(Curve, IsSmoothWithFewPoints) {
         << method << "a thousandth of the extent, and as much for what was dropped";
     EXPECT_LT(curve.times.size(), 20U * 100U) << method;
   }
+}
+
+// a shot: 180 m far and half a metre down, in a picture where each axis has its scale
+TEST(Curve, IsSmoothInTheScaleOfEachAxis) {
+  const MotionRecord motion =
+      record("[time]\nend = 0.36\n[[body]]\nname = \"b\"\nvelocity = [500, 0, 0.4]\nacceleration = [0, 0, -9.8]\n");
+  const Curve curve = make_curve(motion, 0);
+  EXPECT_LT(error(motion, curve, 2), 2e-3 * 0.5);
+  EXPECT_LT(curve.times.size(), 200U);
+}
+
+// x = exp(10 t), to 1e65: beside a motion that stays below 2 one sees the first 0.07 s
+TEST(Curve, IsSmoothWhereAMotionBeginsToRunAway) {
+  const MotionRecord motion = record(
+      "[time]\nend = 15\n[[body]]\nname = \"b\"\nposition = [1, 0, 0]\nvelocity = [10, 0, 0]\n"
+      "acceleration = \"100*r\"\n");
+  const Curve curve = make_curve(motion, 0);
+  EXPECT_LT(error(motion, curve, 0, 0.07), 4e-3);
+  EXPECT_LT(curve.times.size(), 8200U);
+}
+
+// y is rounding, 1e-17 of x
+TEST(Curve, DoesNotRefineRounding) {
+  const MotionRecord motion = record(
+      "[time]\nend = 10\n[[body]]\nname = \"b\"\nvelocity = [1, 0, 0]\n"
+      "acceleration = [1, \"1e-14*sin(1000*t)\", 0]\n");
+  const Curve curve = make_curve(motion, 0);
+  double largest = 0.0;
+  for (const auto& state : curve.states) largest = std::max(largest, std::abs(state[1]));
+  EXPECT_GT(largest, 0.0);
+  EXPECT_LT(curve.times.size(), 400U);
 }
 
 TEST(Curve, OfAStraightLineHasFewPoints) {

@@ -27,6 +27,11 @@ const BadScene kBadScenes[] = {
     // keys
     {"[[body]]\nname = \"b\"\nvelocty = [1,0,0]", "5:1", "unknown key 'velocty' in [[body]]; did you mean 'velocity'?"},
     {"[[body]]\nname = \"b\"\nradius = 1", "5:10", "a point has no radius"},
+    {"[[body]]\nname = \"b\"\ncolor = \"gren\"", "5:9", "got 'gren'; did you mean 'green'?"},
+    {"[[body]]\nname = \"b\"\ncolor = \"#12345g\"", "5:9", "a colour expected, \"#rrggbb\" or one of aqua, "},
+    {"[[body]]\nname = \"b\"\ncolor = 255", "5:9", "a string expected"},
+    {"[[obstacle]]\nname = \"o\"\nshape = \"plane\"\npoint = [0,0,0]\nnormal = [0,0,1]\ncolor = \"#fff\"", "8:9",
+     "got '#fff'"},
     {"[[body]]\nname = \"b\"\nshape = \"sphere\"", "3:1", "lacks the key 'radius'"},
     {"[[body]]\nposition = [0,0,0]", "3:1", "[[body]] lacks the key 'name'"},
     {"[[body]]\nname = \"b\"\nfriction = 1", "5:1", "not supported by this version"},

@@ -3,7 +3,7 @@
 #include <string>
 
 #include "trajet/io/output_file.hpp"
-#include "trajet/sim/run_result.hpp"
+#include "trajet/sim/run_observer.hpp"
 
 namespace trajet {
 
@@ -16,6 +16,7 @@ class CsvWriter : public RunObserver {
   /// `file` outlives the writer. The header is written with the first sample, which knows the extra states.
   explicit CsvWriter(OutputFile& file) : file_(file) {}
 
+  RunWishes wishes() const override { return {.samples = true}; }
   void sample(const Sample& sample) override;
 
  private:

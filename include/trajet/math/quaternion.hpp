@@ -12,22 +12,22 @@ using QuaternionT = Eigen::Quaternion<T>;
 template <class T>
 using Matrix3T = Eigen::Matrix<T, 3, 3>;
 
-// What Eigen's type lacks. It has the product a * b (F83), a.conjugate() (F85), a.norm(), a.inverse() (F87), a.dot(b).
-// [Kuipers1999] ch. 5; numbers F82 … F91 are those of the course's features.
+// What Eigen's type lacks. It has the product a * b, a.conjugate(), a.norm(), a.inverse(), a.dot(b).
+// [Kuipers1999] ch. 5.
 
-/// The quaternion (0, v) of a vector (F81).
+/// The quaternion (0, v) of a vector.
 template <class T>
 QuaternionT<T> pure(const Vector3T<T>& v) {
   return {T(0.0), v.x(), v.y(), v.z()};
 }
 
-/// a + b (F82).
+/// a + b.
 template <class T>
 QuaternionT<T> sum(const QuaternionT<T>& a, const QuaternionT<T>& b) {
   return {a.w() + b.w(), a.x() + b.x(), a.y() + b.y(), a.z() + b.z()};
 }
 
-/// a - b (F82).
+/// a - b.
 template <class T>
 QuaternionT<T> difference(const QuaternionT<T>& a, const QuaternionT<T>& b) {
   return {a.w() - b.w(), a.x() - b.x(), a.y() - b.y(), a.z() - b.z()};
@@ -39,32 +39,32 @@ QuaternionT<T> scaled(const T& s, const QuaternionT<T>& q) {
   return {s * q.w(), s * q.x(), s * q.y(), s * q.z()};
 }
 
-/// a . b = a_w b_w + a_x b_x + a_y b_y + a_z b_z, which is the scalar part of a b*, not a b* itself (F86).
+/// a . b = a_w b_w + a_x b_x + a_y b_y + a_z b_z, which is the scalar part of a b*, not a b* itself.
 template <class T>
 T dot(const QuaternionT<T>& a, const QuaternionT<T>& b) {
   return a.w() * b.w() + a.x() * b.x() + a.y() * b.y() + a.z() * b.z();
 }
 
-/// q^-1 = q* / |q|^2 (F87).
+/// q^-1 = q* / |q|^2.
 template <class T>
 QuaternionT<T> inverse(const QuaternionT<T>& q) {
   const T norm_squared = dot(q, q);
   return {q.w() / norm_squared, -q.x() / norm_squared, -q.y() / norm_squared, -q.z() / norm_squared};
 }
 
-/// q^-1 p: the solution x of q x = p (F88).
+/// q^-1 p: the solution x of q x = p.
 template <class T>
 QuaternionT<T> left_quotient(const QuaternionT<T>& q, const QuaternionT<T>& p) {
   return inverse(q) * p;
 }
 
-/// p q^-1: the solution x of x q = p (F88).
+/// p q^-1: the solution x of x q = p.
 template <class T>
 QuaternionT<T> right_quotient(const QuaternionT<T>& p, const QuaternionT<T>& q) {
   return p * inverse(q);
 }
 
-/// The matrix of v -> vec(q (0, v) q*) (F90): a rotation if |q| = 1, else |q|^2 times one.
+/// The matrix of v -> vec(q (0, v) q*): a rotation if |q| = 1, else |q|^2 times one.
 template <class T>
 Matrix3T<T> rotation_matrix(const QuaternionT<T>& q) {
   const T ww = q.w() * q.w(), xx = q.x() * q.x(), yy = q.y() * q.y(), zz = q.z() * q.z();
@@ -78,7 +78,7 @@ Matrix3T<T> rotation_matrix(const QuaternionT<T>& q) {
   return R;
 }
 
-/// vec(q (0, v) q*) (F90): v rotated if |q| = 1, else stretched by |q|^2 too.
+/// vec(q (0, v) q*): v rotated if |q| = 1, else stretched by |q|^2 too.
 template <class T>
 Vector3T<T> rotate(const QuaternionT<T>& q, const Vector3T<T>& v) {
   return rotation_matrix(q) * v;
@@ -132,7 +132,7 @@ struct AxisAngle {
   T angle_rad;
 };
 
-/// (cos(a / 2), u sin(a / 2)) for the angle a about the unit vector u (F89). `axis` may have any length but 0.
+/// (cos(a / 2), u sin(a / 2)) for the angle a about the unit vector u. `axis` may have any length but 0.
 template <class T>
 QuaternionT<T> from_axis_angle(const Vector3T<T>& axis, T angle_rad) {
   return from_rotation_vector<T>(axis.stableNormalized() * angle_rad);

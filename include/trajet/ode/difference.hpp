@@ -15,11 +15,11 @@ namespace trajet {
 
 /// Which of the course's two formulas gives the position.
 enum class PositionFormula {
-  linear,     ///< the velocity is linear within the step (F15)
-  quadratic,  ///< the velocity is the quadratic that it is by its own formula (F16)
+  linear,     ///< the velocity is linear within the step
+  quadratic,  ///< the velocity is the quadratic that it is by its own formula
 };
 
-/// The course's scheme for accelerations of time alone whose derivatives are not known (F12-F17), with the steps that
+/// The course's scheme for accelerations of time alone whose derivatives are not known, with the steps that
 /// the user gives. In the step from t_{n-1} to t_n the acceleration counts as linear:
 ///
 ///     k_n  = (a_n - a_{n-1}) / h

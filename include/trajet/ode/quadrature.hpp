@@ -106,7 +106,7 @@ class KronrodRule {
 
 }  // namespace detail
 
-/// Direct integration of accelerations of time alone (the course's F8): v = v0 + int a dt, r = r0 + int v dt, by the
+/// Direct integration of accelerations of time alone: v = v0 + int a dt, r = r0 + int v dt, by the
 /// adaptive rule of Gauss and Kronrod with 7 and 15 nodes [PiessensEtAl1983], nodes and weights of Boost.Math.
 ///
 /// Of the values at the nodes of a step, each rate becomes the polynomial of degree 11 that is its projection on

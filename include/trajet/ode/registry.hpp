@@ -25,7 +25,7 @@ struct MethodInfo {
   int order;        ///< of the global error; 0: chosen from the tolerance
   int dense_order;  ///< p: the error within a Segment is O(h^(p+1)); 0: chosen from the tolerance
   StepControl control;
-  std::string_view known_as;  ///< what the course or MATLAB calls it, with the feature's number
+  std::string_view known_as;  ///< what the notes (docs/notes/) or MATLAB call it
   std::string_view summary;   ///< one line
   std::unique_ptr<AnyStepper> (*make)(System& system, const StepOptions& options);
   int max_order = 0;  ///< what StepOptions::order may be at most; 0: the method's order cannot be chosen

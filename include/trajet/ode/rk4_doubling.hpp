@@ -17,8 +17,8 @@
 
 namespace trajet {
 
-/// Runge-Kutta 4 with step doubling and Richardson extrapolation as the course has it (F50-F57, `SEDRK4c`), with its
-/// errata put right (A14, A18, B4-B10).
+/// Runge-Kutta 4 with step doubling and Richardson extrapolation as the notes have it (`SEDRK4c`), with their
+/// errata put right.
 ///
 /// The user gives output intervals and a relative accuracy eps = rtol. Over an interval the method marches with 1, 2,
 /// 4, … steps of rk4 until two marches, q_a with steps h and q_b with steps h/2, agree at its end, the whole state in
@@ -38,7 +38,7 @@ class Rk4DoublingStepper {
  public:
   using State = Eigen::Matrix<double, Dim, 1>;
   static constexpr int kDimension = Dim;
-  static constexpr int kMaxSubsteps = 128;  // the course's routine stops at the first power of 2 above 100
+  static constexpr int kMaxSubsteps = 128;  // the notes' routine stops at the first power of 2 above 100
 
   /// Reads `rtol` and `step` or `nodes`. Throws std::invalid_argument if the intervals are missing or wrong, or for a
   /// negative `rtol`.

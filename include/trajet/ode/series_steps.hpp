@@ -18,7 +18,7 @@
 
 namespace trajet {
 
-/// The course's series scheme (F10, F11): over each of the steps that the user gives, the Taylor polynomial of the
+/// The course's series scheme: over each of the steps that the user gives, the Taylor polynomial of the
 /// solution of an order that the user gives, with exact derivatives:
 ///
 ///     q(t) = sum_{k <= order} q^(k)(t_{n-1}) (t - t_{n-1})^k / k!

@@ -52,7 +52,7 @@ struct Unsuitable {
 };
 
 /// The components by levels: the rates of level 0 depend on time alone, those of each further level on levels below.
-/// So all of them are integrals of functions that are known beforehand: a(t) first, then v(t), as in the course's F8.
+/// So all of them are integrals of functions that are known beforehand: a(t) first, then v(t).
 using Levels = std::vector<std::vector<int>>;
 
 /// The levels of a structure, or, where a component depends on itself in a circle, why there are none.

@@ -35,7 +35,7 @@ inline int taylor_order(double rtol) {
 }
 
 /// The series method: each step is the Taylor polynomial of the solution, with exact derivatives, as long as its last
-/// terms allow. The course's method for known derivatives (F10), for any law and any order.
+/// terms allow. The course's method for known derivatives, for any law and any order.
 ///
 /// `Expansion` gives the coefficients (`LawExpansion` for a C++ law, `SystemExpansion` for a scene). The step h is the
 /// largest for which the last two terms are within the tolerance of every component, [JorbaZou2005] §3.2 (3-8) with the

@@ -19,7 +19,7 @@ Matrix3T<T> cross_matrix(const Vector3T<T>& w) {
   return m;
 }
 
-/// dR/dt = w~ R for w in the world's frame (F60).
+/// dR/dt = w~ R for w in the world's frame.
 template <class T>
 Matrix3T<T> matrix_rate_world(const Matrix3T<T>& R_WB, const Vector3T<T>& w_WB_W) {
   return cross_matrix(w_WB_W) * R_WB;
@@ -30,7 +30,7 @@ Matrix3T<T> matrix_rate_body(const Matrix3T<T>& R_WB, const Vector3T<T>& w_WB_B)
   return R_WB * cross_matrix(w_WB_B);
 }
 
-/// dq/dt = 1/2 (0, w) q for w in the world's frame (F96, with the factors in the order that belongs to it).
+/// dq/dt = 1/2 (0, w) q for w in the world's frame: the factors in this order.
 template <class T>
 QuaternionT<T> quaternion_rate_world(const QuaternionT<T>& q_WB, const Vector3T<T>& w_WB_W) {
   return scaled(T(0.5), pure(w_WB_W) * q_WB);
@@ -127,7 +127,7 @@ Vector3T<T> angular_acceleration_body(const Matrix3& inertia, const Matrix3& inv
   return inverse_inertia.cast<T>() * net;
 }
 
-/// A point of a solid, fixed in it at p_B (F7).
+/// A point of a solid, fixed in it at p_B.
 struct PointMotion {
   Vector3 position;      ///< m
   Vector3 velocity;      ///< m/s

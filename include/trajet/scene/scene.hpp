@@ -12,6 +12,7 @@
 #include "trajet/geom/triangle_mesh.hpp"
 #include "trajet/law/expression.hpp"
 #include "trajet/rigid/orientation.hpp"
+#include "trajet/scene/rgb_color.hpp"
 
 namespace trajet {
 
@@ -125,6 +126,7 @@ struct BodyDefinition {
   std::optional<Expression> principal_inertia;  ///< about the centre of mass along the body's axes, kg m^2; or:
   std::vector<Expression> inertia;              ///< three rows, body's frame
   std::vector<NamedExpression> points;          ///< of the body, in its frame, m, to be reported
+  std::optional<RgbColor> color;                ///< in pictures; none: one that tells bodies apart
   SourceLocation where{};
 };
 
@@ -146,6 +148,7 @@ struct ObstacleDefinition {
   OrientationDefinition orientation{};  ///< of the shape's frame
   OnHit on_hit = OnHit::stop;
   std::optional<Expression> restitution{};  ///< 0..1, for bounce; none: 1
+  std::optional<RgbColor> color{};          ///< in pictures; none: grey
   SourceLocation where{};
 };
 

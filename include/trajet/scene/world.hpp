@@ -50,6 +50,7 @@ struct World {
     Quaternion q_WB{1.0, 0.0, 0.0, 0.0};  ///< at the start, unit
     std::optional<Rotation> rotation;     ///< none: it does not turn
     std::optional<Program> mass;          ///< kg, one output
+    std::optional<RgbColor> color;        ///< as the scene says
 
     BodySlice slice() const { return {offset, rotation ? std::optional(rotation->layout) : std::nullopt}; }
   };
@@ -61,6 +62,7 @@ struct World {
     Shape shape;                          ///< the solid where it stands
     OnHit on_hit = OnHit::stop;
     double restitution = 1.0;
+    std::optional<RgbColor> color{};  ///< as the scene says
   };
 
   struct ExtraState {

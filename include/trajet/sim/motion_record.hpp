@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "trajet/scene/world.hpp"
-#include "trajet/sim/run_result.hpp"
+#include "trajet/sim/run_observer.hpp"
 
 namespace trajet {
 
@@ -17,6 +17,7 @@ class MotionRecord : public RunObserver {
     double to = 0.0;    ///< s
   };
 
+  RunWishes wishes() const override { return {.motion = true}; }
   void begin(const World& world) override;
   void motion(const MotionPiece& piece) override;
 

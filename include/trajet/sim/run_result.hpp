@@ -5,14 +5,10 @@
 #include <vector>
 
 #include "trajet/math/vector.hpp"
-#include "trajet/ode/segment.hpp"
 #include "trajet/ode/stepper.hpp"
 #include "trajet/scene/named_value.hpp"
 
 namespace trajet {
-
-class Rotations;
-struct World;
 
 enum class RunStatus {
   finished,     ///< reached the end time
@@ -71,9 +67,11 @@ struct BodyState {
   Matrix3 rotation_matrix = Matrix3::Identity();  ///< R_WB, as carried: it may stretch where the way lets it
   Vector3 angular_velocity = Vector3::Zero();
   std::vector<PointState> points;
+  /// Estimated, m and m/s: how far position and velocity may be off. Of the final state only.
+  std::optional<double> position_error_bound{}, velocity_error_bound{};
 };
 
-/// All bodies and extra states at one time. An impact has two: before and after it.
+/// Bodies and extra states at one time. An impact has two, of the body concerned: before and after it.
 struct Sample {
   double time = 0.0;
   std::vector<BodyState> bodies;
@@ -98,36 +96,6 @@ struct RunResult {
   Sample final;
   std::vector<std::string> warnings;
   RunStatistics statistics;
-};
-
-/// How one group of bodies and states moved from one time to another.
-struct MotionPiece {
-  int group;                 ///< in World::groups: what the components of the Segment are
-  const Segment<>& segment;  ///< is the motion between `from` and `to`, which lie on it
-  double from;               ///< s
-  double to;                 ///< s; before `from` in a run backward in time
-  bool begins_anew;  ///< the state or the law may have jumped at `from`: the start, a bounce, an event that set it
-  bool ends_step;    ///< a step of the method ends at `to`; else an impact, an event or the run's end cut it
-  const Rotations& rotations;  ///< what `state` needs to know of the bodies that turn
-
-  /// The state at a time on the piece as reports have it: orientations are unit quaternions, rotation vectors are 0 and
-  /// their quaternions turned instead, closed forms are exact.
-  Eigen::VectorXd state(double t) const;
-};
-
-/// Receives a run while it goes on. Every function has a default that does nothing.
-class RunObserver {
- public:
-  virtual ~RunObserver() = default;
-  /// Once, before all else: what is going to move. The World lives as long as the run.
-  virtual void begin(const World&) {}
-  /// All of the motion, on the Segments that were searched for impacts. The pieces of a group join without gaps in
-  /// time.
-  virtual void motion(const MotionPiece&) {}
-  /// In order of time: the start, each multiple of the sample spacing, before and after each impact, the end.
-  virtual void sample(const Sample&) {}
-  /// Asked between steps and samples: true ends the run as `interrupted`. `time` is how far the run has come.
-  virtual bool interrupted(double time) { return time != time; }
 };
 
 }  // namespace trajet

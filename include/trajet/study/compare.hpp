@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "trajet/scene/scene.hpp"
-#include "trajet/sim/run_result.hpp"
+#include "trajet/sim/run_observer.hpp"
 #include "trajet/study/reference.hpp"
 
 namespace trajet {

@@ -7,7 +7,7 @@
 #include "trajet/law/evaluate.hpp"
 #include "trajet/ode/segment.hpp"
 #include "trajet/scene/world.hpp"
-#include "trajet/sim/run_result.hpp"
+#include "trajet/sim/run_observer.hpp"
 
 namespace trajet {
 
@@ -63,6 +63,7 @@ class ClosedFormReference : public Reference {
 /// A run, kept as it goes on: it is given to `run` as its observer.
 class RecordedReference : public Reference, public RunObserver {
  public:
+  RunWishes wishes() const override { return {.motion = true}; }
   void begin(const World& world) override;
   void motion(const MotionPiece& piece) override;
 

@@ -6,7 +6,7 @@
 
 #include "trajet/study/compare.hpp"
 #include "trajet/viz/curve.hpp"
-#include "trajet/viz/figure.hpp"
+#include "trajet/viz/gnuplot.hpp"
 #include "trajet/viz/pose.hpp"
 
 namespace trajet {

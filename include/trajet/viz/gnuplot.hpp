@@ -20,9 +20,16 @@ struct FigureSize {
 /// The program that draws, or FileError that says how to get it.
 void require_gnuplot();
 
-/// Draws: runs gnuplot on a script that knows nothing of formats, and returns the contents of the picture's file.
-/// Throws FileError with gnuplot's own words if it fails.
-std::string draw(const std::string& script, FigureFormat format, const FigureSize& size);
+/// A picture before it is drawn.
+struct Figure {
+  std::string script;  ///< lines for gnuplot, which know nothing of formats
+  FigureSize size;
+  std::string title;  ///< of the picture as a whole, for browsers and those who cannot see it
+};
+
+/// Draws: runs gnuplot, and returns the contents of the picture's file. Throws FileError with gnuplot's own words if it
+/// fails.
+std::string draw(const Figure& figure, FigureFormat format);
 
 namespace detail {
 /// A text as a literal of a gnuplot script; control characters become blanks.

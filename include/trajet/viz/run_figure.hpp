@@ -2,7 +2,7 @@
 
 #include "trajet/sim/motion_record.hpp"
 #include "trajet/sim/run_result.hpp"
-#include "trajet/viz/figure.hpp"
+#include "trajet/viz/gnuplot.hpp"
 
 namespace trajet {
 

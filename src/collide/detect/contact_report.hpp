@@ -85,15 +85,12 @@ ContactResult report(const F& gap, const GapContact& contact, const MovingBall& 
                      : contact.side_before > 0 ? ContactDirection::entering
                                                : ContactDirection::leaving;
 
-  // dt = dx / |gap rate| at a crossing, dx = |gap''| dt^2 / 2 at a graze
   const FunctionSample sample = gap.at(contact.tau);
-  const double position_error = ball.start_error + path.error_bound().norm();
-  const double by_rate = position_error / std::abs(sample.jet.rate);
-  const double by_curvature = std::sqrt(2.0 * position_error / std::abs(sample.jet.curvature));
-  const double error = position_error > 0.0 ? std::min(by_rate, by_curvature) : 0.0;
+  result.gap_rate = sample.jet.rate;
+  result.gap_curvature = sample.jet.curvature;
   const double time_rounding = 2.0 * kUnitRoundoff * (std::abs(path.t0()) + std::abs(result.time));
   result.time_resolution = contact.root_error + time_rounding;
-  result.time_error_bound = result.time_resolution + error;
+  result.time_error_bound = result.time_resolution + result.time_error(ball.start_error + path.error_bound().norm());
 
   result.memory.contact_time = result.time;
   result.memory.tolerance = std::max(sample.tolerance, 2.0 * time_rounding * std::abs(sample.jet.rate));

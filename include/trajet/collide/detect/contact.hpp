@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "trajet/math/vector.hpp"
@@ -61,7 +63,16 @@ struct ContactResult {
   ContactDirection direction = ContactDirection::entering;
   int side_before = 0;           ///< of a contact: from which the body came, as in ContactMemory
   double time_resolution = 0.0;  ///< s: the part of time_error_bound that rounding makes
+  double gap_rate = 0.0;         ///< m/s, of the gap at the contact
+  double gap_curvature = 0.0;    ///< m/s^2
   ContactMemory memory;          ///< for what follows, if the body passes through
+
+  /// How far the time is off where the ball's position is off by `position_error` (m) along the normal, s: dt = dx /
+  /// |gap rate| at a crossing, dx = |gap''| dt^2 / 2 at a graze.
+  double time_error(double position_error) const {
+    if (!(position_error > 0.0)) return 0.0;
+    return std::min(position_error / std::abs(gap_rate), std::sqrt(2.0 * position_error / std::abs(gap_curvature)));
+  }
 };
 
 }  // namespace trajet

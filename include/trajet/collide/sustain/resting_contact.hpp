@@ -10,10 +10,11 @@ namespace trajet {
 
 /// A body that stays on a flat obstacle, without friction: its velocity and acceleration have no part along the normal.
 struct RestingContact {
-  int pair = 0;    ///< of the Motion
-  int offset = 0;  ///< of the body in the group's state
-  Vector3 normal;  ///< unit, away from the obstacle
-  Vector3 point;   ///< of the face on which the body stays, m
+  int body = 0;      ///< in World::bodies
+  int obstacle = 0;  ///< in World::obstacles
+  int offset = 0;    ///< of the body in the group's state
+  Vector3 normal;    ///< unit, away from the obstacle
+  Vector3 point;     ///< of the face on which the body stays, m
   Vector3 release =
       normal;  ///< the contact would have to pull where release . a > 0, a the acceleration without contacts
 };

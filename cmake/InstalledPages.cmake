@@ -1,0 +1,23 @@
+# What the program tells of itself, written when it is installed: its manual page and the completions of shells.
+#
+#   cmake -DPROGRAM=trajet -DPYTHON=python3 -DSOURCE=... -DVERSION=... -DOUTPUT=FOLDER -P InstalledPages.cmake
+#
+# Writes OUTPUT/trajet.1 where there is Python, and OUTPUT/completion/ of the shells whose completion it can print.
+cmake_minimum_required(VERSION 3.25)
+
+file(REMOVE_RECURSE ${OUTPUT})
+file(MAKE_DIRECTORY ${OUTPUT}/completion)
+if(PYTHON)
+  execute_process(
+    COMMAND ${PYTHON} -B ${SOURCE}/scripts/man_page ${PROGRAM} ${VERSION} ${SOURCE}/docs/formats/report.md ${OUTPUT}/trajet.1
+    COMMAND_ERROR_IS_FATAL ANY)
+endif()
+foreach(pair IN ITEMS bash:trajet zsh:_trajet fish:trajet.fish)
+  string(REPLACE ":" ";" pair ${pair})
+  list(GET pair 0 shell)
+  list(GET pair 1 name)
+  execute_process(COMMAND ${PROGRAM} completion ${shell} OUTPUT_VARIABLE text ERROR_QUIET RESULT_VARIABLE code)
+  if(code EQUAL 0 AND text)
+    file(WRITE ${OUTPUT}/completion/${name} "${text}")
+  endif()
+endforeach()

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <algorithm>
+
+namespace trajet {
+
+/// Whether a body that moves away with `speed` (m/s) from an obstacle towards which it is accelerated with `pull`
+/// (m/s^2) is in contact still. A flight so much higher than the gap that can be told from contact, `tolerance` (m), is
+/// a flight: u^2 / (2 g) against the gap.
+inline bool is_below_flight(double speed, double pull, double tolerance) {
+  constexpr double kLowestFlight = 1e5;
+  return speed * speed <= 2.0 * pull * kLowestFlight * tolerance;
+}
+
+/// For how long a body still bounces that leaves an obstacle with `speed`, pulled back with `pull`, before it rests:
+/// all flights to come, 2 u/g (1 + e + e^2 + ...), s. `restitution` < 1.
+inline double bouncing_time(double speed, double pull, double restitution) {
+  return 2.0 * std::max(0.0, speed) / (pull * (1.0 - restitution));
+}
+
+}  // namespace trajet

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <algorithm>
+#include <initializer_list>
+#include <utility>
+#include <vector>
+
+#include "trajet/sim/run_observer.hpp"
+
+namespace trajet {
+
+/// Several observers as one: each hears of what it wishes, and any of them can end the run.
+class ObserverList : public RunObserver {
+ public:
+  /// They outlive the list; null pointers are left out.
+  explicit ObserverList(std::vector<RunObserver*> observers) : observers_(std::move(observers)) {
+    std::erase(observers_, nullptr);
+  }
+
+  RunWishes wishes() const override {
+    RunWishes all;
+    for (const RunObserver* each : observers_) {
+      all.motion |= each->wishes().motion;
+      all.samples |= each->wishes().samples;
+    }
+    return all;
+  }
+  void begin(const World& world) override {
+    for (RunObserver* each : observers_) each->begin(world);
+  }
+  void motion(const MotionPiece& piece) override {
+    for (RunObserver* each : observers_)
+      if (each->wishes().motion) each->motion(piece);
+  }
+  void sample(const Sample& sample) override {
+    for (RunObserver* each : observers_)
+      if (each->wishes().samples) each->sample(sample);
+  }
+  bool interrupted(double time) override {
+    return std::ranges::any_of(observers_, [time](RunObserver* each) { return each->interrupted(time); });
+  }
+
+ private:
+  std::vector<RunObserver*> observers_;
+};
+
+}  // namespace trajet

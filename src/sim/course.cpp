@@ -1,0 +1,208 @@
+#include "course.hpp"
+
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
+#include "instant.hpp"
+#include "trajet/sim/state_at.hpp"
+
+namespace trajet {
+
+Support support_of(const std::vector<RestingContact>& contacts, int offset) {
+  std::vector<Vector3> normals;
+  for (const RestingContact& contact : contacts)
+    if (contact.offset == offset) normals.push_back(contact.normal);
+  return support(normals);
+}
+
+Course::Course(const World& world, int group)
+    : world_(world),
+      group_(group),
+      free_system_(std::make_unique<ProgramSystem>(this->group().law)),
+      orientations_(world, group),
+      closed_rotations_(world, group),
+      error_(static_cast<int>(this->group().start.size())) {
+  for (const int event : this->group().events) {
+    const World::Event& definition = world.events[static_cast<std::size_t>(event)];
+    watches_.push_back({Crossing::Kind::event, event, EventWatch(definition.when, definition.direction)});
+  }
+  use_contacts();
+  begin(world.start, this->group().start, nullptr);
+}
+
+void Course::use_contacts() {
+  if (stepper_) {
+    finished_steppers_ = statistics();
+    finished_warnings_ = warnings();
+  }
+  stepper_.reset();
+  held_system_.reset();
+  std::erase_if(watches_, [](const Watch& watch) { return watch.kind != Crossing::Kind::event; });
+  if (!contacts_.empty()) {
+    Program law = group().law;
+    for (const int body : group().bodies) {
+      const int offset = world_.bodies[static_cast<std::size_t>(body)].offset;
+      const Support support = support_of(contacts_, offset);
+      for (const Vector3& direction : support.blocked) law = hold(law, offset, direction);
+      auto release = support.release.begin();
+      for (RestingContact& contact : contacts_)
+        if (contact.offset == offset) contact.release = *release++;
+    }
+    held_system_ = std::make_unique<ProgramSystem>(law);
+    for (std::size_t i = 0; i < contacts_.size(); ++i) {
+      const Shape& shape = world_.obstacles[static_cast<std::size_t>(contacts_[i].obstacle)].shape;
+      const ReleaseConditions conditions = release_conditions(group().law, shape, contacts_[i]);
+      const auto watch = [&](Crossing::Kind kind, const Program& condition) {
+        watches_.push_back({kind, static_cast<int>(i), EventWatch(condition, CrossingDirection::rising)});
+      };
+      watch(Crossing::Kind::pull, conditions.pull);
+      for (const Program& condition : conditions.past_edges) watch(Crossing::Kind::past_edge, condition);
+    }
+  }
+  StepOptions options = world_.step_options;
+  options.rtol *= orientations_.tolerance_factor();
+  options.atol *= orientations_.tolerance_factor();
+  stepper_ = world_.method->make(held_system_ ? *held_system_ : *free_system_, options);
+}
+
+void Course::begin(double t, const Eigen::VectorXd& q, const Eigen::VectorXd* before) {
+  end_state_ = q;
+  orientations_.begin(end_state_, before);
+  closed_rotations_.begin(t, end_state_, before);
+  stepper_->start(t, end_state_);
+  rest_of_step_.clear();
+  handed_on_ = t;
+  begins_anew_ = true;
+  segment_.resize(static_cast<int>(q.size()), 0);
+  segment_.set_interval(t, t);
+  segment_.coefficients().col(0) = end_state_;
+  segment_.error_bound().setZero();
+  next_ = {t};
+}
+
+std::optional<MotionPiece> Course::hand_on(double t) {
+  if (t == handed_on_) return std::nullopt;
+  const bool ends_step = t == segment_.t1() && rest_of_step_.empty();
+  return MotionPiece{group_, segment_, std::exchange(handed_on_, t), t, std::exchange(begins_anew_, false), ends_step};
+}
+
+void Course::restart(const Instant& instant) {
+  const double t = instant.time();
+  error_.pass(law(), segment_, t);
+  error_.jump(instant.derivative);
+  const auto same = [](const RestingContact& a, const RestingContact& b) {
+    return a.body == b.body && a.obstacle == b.obstacle && a.normal == b.normal;
+  };
+  if (!std::ranges::equal(contacts_, instant.contacts, same)) {
+    contacts_ = instant.contacts;
+    use_contacts();
+  }
+  for (Watch& watch : watches_) watch.watch.restart(t, instant.before().data(), instant.q.data());
+  begin(t, instant.q, &instant.before());
+}
+
+StepStatus Course::advance() {
+  if (segment_.duration() != 0.0) error_.pass(law(), segment_, segment_.t1());
+  if (rest_of_step_.empty()) {
+    if (const StepStatus status = stepper_->advance(world_.end); status != StepStatus::ok) return status;
+    stepper_->fill_segment(segment_);
+    end_state_ = stepper_->state();
+    if (!orientations_.empty()) put_orientations_right();
+  }
+  if (!rest_of_step_.empty()) {
+    segment_ = std::move(rest_of_step_.front());
+    rest_of_step_.pop_front();
+  }
+  for (Watch& watch : watches_) watch.watch.search(segment_, segment_.t0());
+  find_next();
+  return StepStatus::ok;
+}
+
+void Course::put_orientations_right() {
+  const Eigen::VectorXd stepped = end_state_;
+  orientations_.end_step(segment_, end_state_);
+  if (!closed_rotations_.empty()) {
+    closed_rotations_.write(segment_.t1(), end_state_);
+    rest_of_step_ = closed_rotations_.pieces(segment_);
+  }
+  // a state that is right but for rounding may stay: a new one costs the method the rate that it knows at the end
+  constexpr double kRounding = 1e-15;
+  if ((end_state_ - stepped).cwiseAbs().maxCoeff() >= kRounding) amend_stepper(end_state_);
+}
+
+void Course::amend_stepper(const Eigen::VectorXd& q) {
+  if (!stepper_->amend(q)) {
+    // What is reported is right in any case: a method that would have to start anew does so only when it has drifted
+    // far.
+    constexpr double kFar = 0.5;
+    if (orientations_.drift(stepper_->state()) < kFar) return;
+    stepper_->start(segment_.t1(), q);
+  }
+  orientations_.was_taken();
+}
+
+void Course::find_next() {
+  next_ = {segment_.t1()};
+  const double direction = segment_.t1() < segment_.t0() ? -1.0 : 1.0;
+  for (const Watch& watch : watches_) {
+    if (!watch.watch.next().found) continue;
+    const double time = watch.watch.next().time;
+    const double ahead = direction * (next_.time - time);
+    if (ahead > 0.0 || (ahead == 0.0 && next_.kind == Crossing::Kind::segment_end))
+      next_ = {time, watch.kind, watch.index};
+  }
+}
+
+Course::Watch& Course::watch(int event) {
+  return *std::ranges::find_if(
+      watches_, [&](const Watch& watch) { return watch.kind == Crossing::Kind::event && watch.index == event; });
+}
+
+const EventWatch::Crossing& Course::event_crossing(int event) const {
+  return const_cast<Course*>(this)->watch(event).watch.next();
+}
+
+void Course::take_event(int event) { watch(event).watch.take(); }
+
+void Course::pass_event(int event) {
+  EventWatch& passed = watch(event).watch;
+  const double time = passed.next().time;
+  passed.take();
+  passed.search(segment_, time);
+  find_next();
+}
+
+Eigen::VectorXd Course::state(double t) const {
+  return t == segment_.t1() && rest_of_step_.empty() ? end_state_ : state_at(world_, group_, segment_, t);
+}
+
+Eigen::VectorXd Course::free_rate(double t, const Eigen::VectorXd& q) const {
+  Eigen::VectorXd dq(q.size());
+  free_system_->rate(t, q.data(), dq.data());
+  return dq;
+}
+
+Eigen::VectorXd Course::rate(double t, const Eigen::VectorXd& q) const {
+  if (!held_system_) return free_rate(t, q);
+  Eigen::VectorXd dq(q.size());
+  held_system_->rate(t, q.data(), dq.data());
+  return dq;
+}
+
+StepStatistics Course::statistics() const {
+  StepStatistics sum = finished_steppers_;
+  sum.steps += stepper_->statistics().steps;
+  sum.rejected_steps += stepper_->statistics().rejected_steps;
+  sum.law_evaluations += stepper_->statistics().law_evaluations;
+  sum.proposed_step = stepper_->statistics().proposed_step;
+  return sum;
+}
+
+std::vector<std::string> Course::warnings() const {
+  std::vector<std::string> all = finished_warnings_;
+  std::ranges::copy(stepper_->warnings(), std::back_inserter(all));
+  return all;
+}
+
+}  // namespace trajet

@@ -1,0 +1,121 @@
+#pragma once
+
+#include <deque>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "closed_rotations.hpp"
+#include "orientation_upkeep.hpp"
+#include "state_error.hpp"
+#include "trajet/collide/sustain/resting_contact.hpp"
+#include "trajet/event/event_watch.hpp"
+#include "trajet/ode/registry.hpp"
+#include "trajet/scene/program_system.hpp"
+#include "trajet/scene/world.hpp"
+#include "trajet/sim/run_observer.hpp"
+
+namespace trajet {
+
+class Instant;
+
+/// The contacts among several that are of the body at `offset` of a group's state, together.
+Support support_of(const std::vector<RestingContact>& contacts, int offset);
+
+/// Something that happens to a course on its current Segment by its own motion.
+struct Crossing {
+  enum class Kind { segment_end, event, pull, past_edge };
+  double time = 0.0;
+  Kind kind = Kind::segment_end;
+  int index =
+      0;  ///< of the event in World::events; else of the lasting contact that would pull or has come to its edge
+};
+
+/// One group of a World on its way: its stepper, the Segment it is on, and the crossings of zero it looks out for.
+///
+/// It advances by Segments. What changes at an instant — the state, the lasting contacts and with them the law — it
+/// takes at once and as a whole by `restart`.
+class Course {
+ public:
+  Course(const World& world, int group);
+
+  const World& world() const { return world_; }
+  const World::Group& group() const { return world_.groups[static_cast<std::size_t>(group_)]; }
+
+  /// Makes the next Segment, from the end of the current one on.
+  StepStatus advance();
+  /// Whether the next Segment belongs to a step that was made already.
+  bool is_within_step() const { return !rest_of_step_.empty(); }
+  /// Goes on as the instant says; the current Segment ends there.
+  void restart(const Instant& instant);
+  /// The motion on the current Segment up to time t, as far as it was not handed on.
+  std::optional<MotionPiece> hand_on(double t);
+
+  /// The first crossing on the current Segment behind what was handled; its end if there is none.
+  const Crossing& next() const { return next_; }
+  /// What the watch of an event of the group has found.
+  const EventWatch::Crossing& event_crossing(int event) const;
+  /// The event has happened and will change the state: it is not the next one any more.
+  void take_event(int event);
+  /// Goes on from an event that changed nothing.
+  void pass_event(int event);
+
+  const Segment<>& segment() const { return segment_; }
+  const std::vector<RestingContact>& contacts() const { return contacts_; }
+  /// The state at a time on the current Segment.
+  Eigen::VectorXd state(double t) const;
+  /// The law in a state: dq/dt, without and with the forces of lasting contacts.
+  Eigen::VectorXd free_rate(double t, const Eigen::VectorXd& q) const;
+  Eigen::VectorXd rate(double t, const Eigen::VectorXd& q) const;
+  /// How far the state may be off at a time on the current Segment, in each component's unit: estimated.
+  Eigen::VectorXd error_bound(double t) { return error_.bound(law(), segment_, t); }
+  /// The same along one direction of the state.
+  double error_bound_along(const Eigen::VectorXd& direction, double t) {
+    return error_.bound_along(direction, law(), segment_, t);
+  }
+  bool finished() const { return segment_.t1() == world_.end; }
+  StepStatistics statistics() const;
+  /// What the method has to say of its work.
+  std::vector<std::string> warnings() const;
+
+ private:
+  struct Watch {
+    Crossing::Kind kind;
+    int index;
+    EventWatch watch;
+  };
+
+  const System& law() const { return held_system_ ? *held_system_ : *free_system_; }
+  /// The law with the present lasting contacts, a stepper for it, and watches for the contacts' ends.
+  void use_contacts();
+  /// `before`: the state in which the course came here; null at the start.
+  void begin(double t, const Eigen::VectorXd& q, const Eigen::VectorXd* before);
+  /// Puts orientations right where a step has ended, on the Segment too.
+  void put_orientations_right();
+  /// Replaces the stepper's state by one that means the same.
+  void amend_stepper(const Eigen::VectorXd& q);
+  Watch& watch(int event);
+  void find_next();
+
+  const World& world_;
+  int group_;
+  std::unique_ptr<ProgramSystem> free_system_;
+  std::unique_ptr<ProgramSystem> held_system_;  // with contacts only
+  std::unique_ptr<AnyStepper> stepper_;
+  OrientationUpkeep orientations_;
+  ClosedRotations closed_rotations_;
+  StateError error_;
+  StepStatistics finished_steppers_;
+  std::vector<std::string> finished_warnings_;
+  Segment<> segment_;
+  std::deque<Segment<>> rest_of_step_;  // the Segments behind it, where a step is more than one
+  Eigen::VectorXd end_state_;           // of the step
+  double handed_on_ = 0.0;              // s
+  bool begins_anew_ = true;             // nothing was handed on since the last start
+  std::vector<RestingContact> contacts_;
+  std::vector<Watch> watches_;  // the events', then those of contacts
+  Crossing next_;
+};
+
+}  // namespace trajet

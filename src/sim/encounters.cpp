@@ -1,0 +1,222 @@
+#include "encounters.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "trajet/collide/detect/contact_table.hpp"
+#include "trajet/event/path.hpp"
+
+namespace trajet {
+namespace {
+
+/// So many obstacles are searched one by one; a piece of a Segment is as long as it meets no more.
+constexpr std::size_t kFew = 8;
+
+}  // namespace
+
+Encounters::Encounters(const World& world) : world_(world), bodies_(world.bodies.size()) {
+  // the course's 3.1 and 3.2 know whole steps only
+  const bool walks = world.obstacles.size() > kFew && world.locate == Locator::polynomial;
+  std::vector<Aabb> boxes;
+  for (std::size_t i = 0; i < world.obstacles.size(); ++i) {
+    const World::Obstacle& obstacle = world.obstacles[i];
+    const Aabb box = walks ? bounds(obstacle.solid, obstacle.p_WB, rotation_matrix(obstacle.q_WB)) : unbounded_box();
+    (is_bounded(box) ? in_tree_ : always_).push_back(static_cast<int>(i));
+    if (is_bounded(box)) boxes.push_back(box);
+  }
+  if (!boxes.empty()) tree_.emplace(boxes);
+}
+
+Pair& Encounters::pair(PairId id) { return *std::ranges::find(around(id.body).pairs, id, &Pair::id); }
+
+Pair& Encounters::find_or_add(int body, int obstacle, double t) {
+  std::vector<Pair>& pairs = around(body).pairs;
+  const PairId id{body, obstacle};
+  const auto found = std::ranges::find(pairs, id, &Pair::id);
+  return found != pairs.end() ? *found : pairs.emplace_back(Pair{.id = id, .known_at = t, .searched_to = t});
+}
+
+ContactResult Encounters::first_contact_until(const Pair& pair, const ContactMemory& memory, const Course& course,
+                                              double from, double to) const {
+  if (pair.is_lasting) return {};
+  const World::Body& body = world_.bodies[static_cast<std::size_t>(pair.id.body)];
+  const World::Obstacle& obstacle = world_.obstacles[static_cast<std::size_t>(pair.id.obstacle)];
+  const PointPath path(course.segment(), body.offset);
+  return first_contact(obstacle.shape, {path, bounding_radius(body.solid), from, to, world_.locate}, memory);
+}
+
+void Encounters::search_whole(Pair& pair, const Course& course) const {
+  const double end = course.segment().t1();
+  pair.contact = first_contact_until(pair, pair.memory, course, pair.known_at, end);
+  pair.ahead = pair.contact.memory;
+  pair.searched_to = end;
+}
+
+Aabb Encounters::swept(int body, const Course& course, double from, double to) const {
+  const World::Body& moving = world_.bodies[static_cast<std::size_t>(body)];
+  const PointPath path(course.segment(), moving.offset);
+  Aabb box;
+  for (int i = 0; i < 3; ++i) {
+    const Range range = path.range(i, from - path.t0(), to - path.t0());
+    box.lower[i] = range.lower;
+    box.upper[i] = range.upper;
+  }
+  // far above the rounding of boxes and of the contacts that touch them
+  constexpr double kMargin = 1e-9;
+  const double size = std::max(box.lower.lpNorm<Eigen::Infinity>(), box.upper.lpNorm<Eigen::Infinity>());
+  const double radius = bounding_radius(moving.solid);
+  return grown(box, radius + kMargin * (radius + size));
+}
+
+std::optional<std::vector<int>> Encounters::near(const Aabb& swept) const {
+  std::vector<int> found;
+  const bool are_few = tree_->visit_overlapping(swept, [&](int index) {
+    found.push_back(in_tree_[static_cast<std::size_t>(index)]);
+    return found.size() <= kFew;
+  });
+  if (!are_few) return std::nullopt;
+  return found;
+}
+
+void Encounters::follow(int body, const Course& course, double until) {
+  Around& around = this->around(body);
+  const double start = course.segment().t0();
+  around.searched_to = start;
+  for (Pair& pair : around.pairs) {
+    pair.contact = {};
+    pair.ahead = pair.memory;
+    pair.searched_to = start;
+  }
+  for (const int obstacle : always_) search_whole(find_or_add(body, obstacle, start), course);
+  search(body, course, until);
+}
+
+void Encounters::search(int body, const Course& course, double until) {
+  if (!tree_) return;
+  Around& around = this->around(body);
+  while (around.searched_to < until && first(body) == nullptr) {
+    const double from = around.searched_to;
+    double to = course.segment().t1();
+    if (around.stride > 0.0) to = std::min(to, from + 2.0 * around.stride);
+    std::optional<std::vector<int>> candidates = near(swept(body, course, from, to));
+    while (!candidates) {
+      const double middle = from + 0.5 * (to - from);
+      constexpr double kShortest = 1e-12;  // of the time: no shorter piece meets less
+      if (middle - from <= kShortest * std::abs(from) || middle == from) {
+        candidates.emplace();
+        tree_->visit_overlapping(swept(body, course, from, to), [&](int index) {
+          candidates->push_back(in_tree_[static_cast<std::size_t>(index)]);
+          return true;
+        });
+        break;
+      }
+      to = middle;
+      candidates = near(swept(body, course, from, to));
+    }
+    around.stride = to - from;
+    std::ranges::sort(*candidates);
+    // what is far away now is not known of when it is met again
+    std::erase_if(around.pairs, [&](const Pair& pair) {
+      return !pair.is_lasting && !std::ranges::binary_search(*candidates, pair.id.obstacle) &&
+             std::ranges::binary_search(in_tree_, pair.id.obstacle);
+    });
+    for (const int obstacle : *candidates) {
+      Pair& pair = find_or_add(body, obstacle, from);
+      pair.contact = first_contact_until(pair, pair.ahead, course, from, to);
+      pair.ahead = pair.contact.memory;
+      pair.searched_to = to;
+    }
+    around.searched_to = to;
+  }
+}
+
+void Encounters::keep(int body, const Course& course, double t) {
+  std::vector<Pair>& pairs = around(body).pairs;
+  std::erase_if(pairs, [&](const Pair& pair) { return pair.known_at > t; });
+  for (Pair& pair : pairs) {
+    if (pair.known_at == t) continue;
+    const bool is_known = t == pair.searched_to || (t > pair.searched_to && !pair.is_lasting);
+    const ContactResult contact =
+        is_known ? pair.contact : first_contact_until(pair, pair.memory, course, pair.known_at, t);
+    const bool is_met = contact.status == ContactStatus::hit || contact.status == ContactStatus::graze;
+    if (contact.status == ContactStatus::separated && !pair.is_lasting) pair.memory = contact.memory;
+    // a contact right at t, where another pair's was handled first, is still to come
+    if (is_met) pair.memory = {.side = contact.side_before, .is_in_plane = contact.memory.is_in_plane};
+    pair.known_at = t;
+  }
+}
+
+void Encounters::bound_times(int body, Course& course) {
+  const int offset = world_.bodies[static_cast<std::size_t>(body)].offset;
+  for (Pair& pair : around(body).pairs) {
+    ContactResult& contact = pair.contact;
+    if (contact.status != ContactStatus::hit && contact.status != ContactStatus::graze) continue;
+    Eigen::VectorXd direction = Eigen::VectorXd::Zero(course.segment().dimension());
+    direction.segment<3>(offset) = contact.normal;
+    contact.time_error_bound =
+        contact.time_resolution + contact.time_error(course.error_bound_along(direction, contact.time));
+  }
+}
+
+const Pair* Encounters::first(int body) const {
+  const Pair* first = nullptr;
+  for (const Pair& pair : pairs(body)) {
+    if (pair.contact.status == ContactStatus::separated) continue;
+    if (first == nullptr || pair.contact.time < first->contact.time) first = &pair;
+  }
+  return first;
+}
+
+std::vector<PairId> Encounters::met_at_once(const Pair& handled) const {
+  std::vector<PairId> met;
+  for (const Pair& other : pairs(handled.id.body)) {
+    if (other.id == handled.id || other.contact.status != ContactStatus::hit) continue;
+    const double resolution = handled.contact.time_resolution + other.contact.time_resolution;
+    if (std::abs(other.contact.time - handled.contact.time) <= resolution) met.push_back(other.id);
+  }
+  return met;
+}
+
+void Encounters::pass(PairId id, const Course& course) {
+  Pair& passed = pair(id);
+  const double end = passed.searched_to;
+  passed.memory = passed.contact.memory;
+  passed.known_at = passed.contact.time;
+  passed.contact = first_contact_until(passed, passed.memory, course, passed.known_at, end);
+  passed.ahead = passed.contact.memory;
+}
+
+bool Encounters::stay_in_contact(PairId id, const Course& course, double height) {
+  Pair& touched = pair(id);
+  const double time = touched.contact.time;
+  ContactMemory memory = touched.contact.memory;
+  memory.side = touched.contact.side_before;
+  memory.contact_time = time;
+  // how far the Segment goes astray is found by trying
+  constexpr double kMore = 16.0;
+  if (touched.memory.contact_time == time)
+    memory.tolerance = std::max(memory.tolerance, kMore * touched.memory.tolerance);
+  if (memory.tolerance > 0.5 * height) return false;
+  touched.memory = memory;
+  touched.known_at = time;
+  touched.contact = first_contact_until(touched, memory, course, time, touched.searched_to);
+  touched.ahead = touched.contact.memory;
+  return true;
+}
+
+void Encounters::take(const Instant& instant) {
+  for (const int body : instant.course().group().bodies)
+    for (Pair& pair : around(body).pairs) {
+      pair.is_lasting = false;
+      pair.contact = {};
+    }
+  for (const RestingContact& contact : instant.contacts)
+    find_or_add(contact.body, contact.obstacle, instant.time()).is_lasting = true;
+  for (const auto& [id, memory] : instant.memories) find_or_add(id.body, id.obstacle, instant.time()).memory = memory;
+}
+
+void Encounters::forget(int body) {
+  for (Pair& pair : around(body).pairs) pair.memory = {};
+}
+
+}  // namespace trajet

@@ -1,0 +1,15 @@
+#pragma once
+
+#include "encounters.hpp"
+#include "trajet/sim/run_result.hpp"
+
+namespace trajet {
+
+/// The contact that was found of a pair as reports have it, before anything has responded to it; `q` is the state of
+/// the body's group then.
+Impact describe(const World& world, const Pair& pair, const Eigen::VectorXd& q);
+/// The beginning or the end of a lasting contact, without an impulse.
+Impact describe(const World& world, const RestingContact& contact, ImpactKind kind, double time,
+                const Eigen::VectorXd& q);
+
+}  // namespace trajet

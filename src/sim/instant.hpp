@@ -1,0 +1,55 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <utility>
+#include <vector>
+
+#include "course.hpp"
+#include "trajet/collide/detect/contact.hpp"
+
+namespace trajet {
+
+/// A body and an obstacle, by their indices in the World.
+struct PairId {
+  int body;
+  int obstacle;
+  bool operator==(const PairId&) const = default;
+};
+
+/// One course at an instant at which its motion changes, while it is being decided what becomes of it.
+///
+/// It begins as the course is: in its state, with its lasting contacts. Responses change the instant; the course stays
+/// as it was until it takes the instant as a whole (`Course::restart`).
+class Instant {
+ public:
+  Instant(const Course& course, double time);
+
+  double time() const { return time_; }
+  const Course& course() const { return course_; }
+  /// The state in which the course came here.
+  const Eigen::VectorXd& before() const { return before_; }
+
+  Eigen::VectorXd q;                     ///< the state in which the course goes on
+  std::vector<RestingContact> contacts;  ///< the lasting contacts with which it goes on
+  /// What is known of pairs behind this instant.
+  std::vector<std::pair<PairId, ContactMemory>> memories;
+
+  /// The derivative of `q` by `before`, at one time: what an error of the state becomes.  // (state x state)
+  Eigen::MatrixXd derivative;
+
+  /// dq/dt in state `q`, the forces of `contacts` included.
+  Eigen::VectorXd rate() const;
+  /// The acceleration in state `q` of the body at `offset` that the law alone gives it, m/s^2.
+  Vector3 free_acceleration(int offset) const;
+  /// What `contacts` of the body at `offset` do together.
+  Support support(int offset) const { return support_of(contacts, offset); }
+  /// Takes out of the velocity of the body at `offset` what its contacts do not let pass.
+  void stop_blocked_velocity(int offset);
+
+ private:
+  const Course& course_;
+  double time_;
+  Eigen::VectorXd before_;
+};
+
+}  // namespace trajet

@@ -1,0 +1,20 @@
+#pragma once
+
+#include "encounters.hpp"
+#include "instant.hpp"
+
+namespace trajet {
+
+/// The derivative of the state behind a frictionless bounce by the state before it, at one time, once the velocity in
+/// `instant.q` is that behind it. `rate`: dq/dt before.
+///
+/// Of states near the one that bounces each does so at a time of its own, where its gap vanishes: the saltation matrix
+/// D + (D f- - f+) dt*/dq with the derivative D of the response at a fixed time, f-, f+ the rates before and behind,
+/// and dt*/dq = -n/(n . r'). The normal turns along a surface that is curved there.
+Eigen::MatrixXd derivative_of_bounce(const World& world, const Pair& pair, const Instant& instant,
+                                     const Eigen::VectorXd& rate);
+
+/// The same of an event's `set`, which happens where `when` vanishes.
+Eigen::MatrixXd derivative_of_set(const World::Event& event, const Instant& instant, const Eigen::VectorXd& rate);
+
+}  // namespace trajet

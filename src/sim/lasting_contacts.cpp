@@ -1,0 +1,155 @@
+#include "lasting_contacts.hpp"
+
+#include <algorithm>
+#include <variant>
+
+#include "impact_record.hpp"
+#include "trajet/collide/sustain/rest.hpp"
+#include "trajet/geom/distance.hpp"
+#include "trajet/geom/flat_faces.hpp"
+
+namespace trajet {
+namespace {
+
+Vector3 closest_point_of(const Shape& shape, const Vector3& p) {
+  return std::visit([&](const auto& s) { return closest_point(s, p); }, shape);
+}
+
+}  // namespace
+
+void LastingContacts::begin(Instant& instant, PairId id, const Impact& impact, double rest_time) {
+  instant.contacts.push_back({id.body, id.obstacle, body(id.body).offset, impact.normal, impact.point, impact.normal});
+  instant.stop_blocked_velocity(body(id.body).offset);
+  coming_.insert({rest_time, id, impact.time_error_bound});
+}
+
+void LastingContacts::release_by_speed(Instant& instant, int moved) {
+  const int offset = body(moved).offset;
+  const double pull = instant.free_acceleration(offset).norm();
+  for (std::size_t i = 0; i < instant.contacts.size();) {
+    const RestingContact contact = instant.contacts[i];
+    const double speed = instant.q.segment<3>(offset + 3).dot(contact.normal);
+    const double tolerance = encounters_.pair({contact.body, contact.obstacle}).memory.tolerance;
+    if (contact.body != moved || is_below_flight(speed, pull, tolerance)) {
+      ++i;
+      continue;
+    }
+    if (speed > 0.0) record(contact, ImpactKind::leave, instant.time(), instant.q);
+    release(instant, static_cast<int>(i));
+  }
+  instant.stop_blocked_velocity(offset);
+}
+
+void LastingContacts::release_by_force(Instant& instant, int held) {
+  const int offset = body(held).offset;
+  const Vector3 acceleration = instant.free_acceleration(offset);
+  while (true) {
+    const std::vector<Vector3> release_directions = instant.support(offset).release;
+    // the contacts that are left share the load anew
+    auto direction = release_directions.begin();
+    const auto pulls = std::ranges::find_if(instant.contacts, [&](const RestingContact& contact) {
+      return contact.body == held && (direction++)->dot(acceleration) > 0.0;
+    });
+    if (pulls == instant.contacts.end()) return;
+    record(*pulls, ImpactKind::leave, instant.time(), instant.q);
+    release(instant, static_cast<int>(pulls - instant.contacts.begin()));
+  }
+}
+
+void LastingContacts::release_after_set(Instant& instant) {
+  const Eigen::VectorXd& before = instant.before();
+  for (const int index : instant.course().group().bodies) {
+    const auto is_of_body = [&](const RestingContact& contact) { return contact.body == index; };
+    if (std::ranges::none_of(instant.contacts, is_of_body)) continue;
+    const int offset = body(index).offset;
+    if (instant.q.segment<3>(offset) == before.segment<3>(offset)) {
+      release_by_speed(instant, index);
+      release_by_force(instant, index);
+      continue;
+    }
+    for (auto contact = std::ranges::find_if(instant.contacts, is_of_body); contact != instant.contacts.end();
+         contact = std::ranges::find_if(instant.contacts, is_of_body)) {
+      record(*contact, ImpactKind::leave, instant.time(), before);
+      end(instant, static_cast<int>(contact - instant.contacts.begin()));
+    }
+  }
+}
+
+ContactMemory& LastingContacts::release(Instant& instant, int index) {
+  const RestingContact contact = instant.contacts[static_cast<std::size_t>(index)];
+  const PairId id{contact.body, contact.obstacle};
+  ContactMemory memory = encounters_.pair(id).memory;
+  memory.contact_time = instant.time();
+  // what the body has drifted off the surface while it rested is still contact
+  const Vector3 position = instant.q.segment<3>(contact.offset);
+  const Vector3 point = position - bounding_radius(body(contact.body).solid) * contact.normal;
+  const Vector3 surface = closest_point_of(obstacle(contact.obstacle).shape, position);
+  memory.tolerance = std::max(memory.tolerance, 2.0 * (surface - point).norm());
+  end(instant, index);
+  return instant.memories.emplace_back(id, memory).second;
+}
+
+void LastingContacts::end(Instant& instant, int index) {
+  const auto contact = instant.contacts.begin() + index;
+  std::erase_if(coming_, [&](const Coming& coming) { return coming.id == PairId{contact->body, contact->obstacle}; });
+  instant.contacts.erase(contact);
+}
+
+void LastingContacts::record_until(double time) {
+  while (!coming_.empty() && coming_.begin()->time <= time) {
+    const Coming rest = *coming_.begin();
+    coming_.erase(coming_.begin());
+    const Course& course = *courses_[static_cast<std::size_t>(body(rest.id.body).group)];
+    const auto contact = std::ranges::find_if(course.contacts(), [&](const RestingContact& each) {
+      return PairId{each.body, each.obstacle} == rest.id;
+    });
+    Impact impact = describe(world_, *contact, ImpactKind::rest, rest.time, course.state(rest.time));
+    impact.time_error_bound = rest.time_error_bound;
+    recorder_.impact(impact);
+  }
+}
+
+void LastingContacts::record(const RestingContact& contact, ImpactKind kind, double time, const Eigen::VectorXd& q) {
+  recorder_.impact(describe(world_, contact, kind, time, q));
+}
+
+void LastingContacts::rest_on_continuation(Instant& instant, const RestingContact& left) {
+  const World::Body& moving = body(left.body);
+  const Vector3 position = instant.q.segment<3>(left.offset);
+  const Vector3 velocity = instant.q.segment<3>(left.offset + 3);
+  const double radius = bounding_radius(moving.solid);
+  const Vector3 foot = position - radius * left.normal;
+  const double size = position.norm() + radius;
+  const auto continues = [&](const Pair& pair) {
+    const World::Obstacle& next = obstacle(pair.id.obstacle);
+    if (pair.is_lasting || next.on_hit != OnHit::bounce || !is_flat_at(next.shape, foot, left.normal)) return false;
+    const Vector3 above = foot + size * left.normal;
+    constexpr double kStep = 1e-12;  // a step this high, of the place and the size, is none
+    return (closest_point_of(next.shape, above) - foot).norm() <= kStep * size &&
+           !moves_off(face_outline(next.shape, foot, left.normal), position, velocity);
+  };
+  const std::vector<Pair>& pairs = encounters_.pairs(left.body);
+  const auto found = std::ranges::find_if(pairs, continues);
+  if (found == pairs.end()) return;
+  RestingContact next = left;
+  next.obstacle = found->id.obstacle;
+  next.point = foot;
+  record(next, ImpactKind::rest, instant.time(), instant.q);
+  instant.contacts.push_back({next.body, next.obstacle, next.offset, next.normal, next.point, next.normal});
+  const bool is_behind = radius == 0.0 && looks_down(obstacle(next.obstacle).shape, left.normal);
+  instant.memories.emplace_back(found->id, ContactMemory{.side = is_behind ? -1 : 1, .contact_time = instant.time()});
+}
+
+void LastingContacts::leave(Instant& instant, int index, bool is_past_edge) {
+  const RestingContact contact = instant.contacts[static_cast<std::size_t>(index)];
+  record(contact, ImpactKind::leave, instant.time(), instant.q);
+  ContactMemory& memory = release(instant, index);
+  if (is_past_edge) {
+    // beside a thin surface a point takes the side to which it falls: it does not go through
+    if (is_thin(obstacle(contact.obstacle).shape) && bounding_radius(body(contact.body).solid) == 0.0) memory.side = 0;
+    rest_on_continuation(instant, contact);
+  }
+  release_by_force(instant, contact.body);
+}
+
+}  // namespace trajet

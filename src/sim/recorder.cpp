@@ -1,0 +1,144 @@
+#include "recorder.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "body_state.hpp"
+
+namespace trajet {
+namespace {
+
+/// A step may hold any number of samples: so often in between the observer is asked whether to go on.
+constexpr long kSamplesBetweenQuestions = 4096;
+
+}  // namespace
+
+Recorder::Recorder(const World& world, const Courses& courses, RunObserver& observer)
+    : world_(world),
+      courses_(courses),
+      observer_(observer),
+      wishes_(observer.wishes()),
+      direction_(world.end < world.start ? -1.0 : 1.0) {
+  observer_.begin(world_);
+  result_.scene = world.scene;
+  result_.title = world.title;
+  result_.method = world.method->name;
+  result_.start_time = result_.end_time = world.start;
+  result_.parameters = world.parameters;
+  result_.warnings = world.warnings;
+}
+
+bool Recorder::sample_until(double& time) {
+  if (!wishes_.samples) return true;
+  while (true) {
+    double next = world_.start + direction_ * static_cast<double>(next_sample_) * world_.sample;
+    // a multiple of the spacing that misses the end by rounding is the end
+    constexpr double kRounding = 1e-9;
+    if (std::abs(next - world_.end) < kRounding * world_.sample) next = world_.end;
+    if (direction_ * (time - next) < 0.0) return true;
+    ++next_sample_;
+    sample(next);
+    if (next_sample_ % kSamplesBetweenQuestions == 0 && observer_.interrupted(next)) {
+      time = next;
+      return false;
+    }
+  }
+}
+
+void Recorder::sample(double time) {
+  if (!wishes_.samples) return;
+  last_sample_ = time;
+  observer_.sample(sample_at(time, std::nullopt));
+}
+
+void Recorder::sample(double time, int body) {
+  if (!wishes_.samples) return;
+  if (world_.bodies.size() == 1) last_sample_ = time;
+  observer_.sample(sample_at(time, body));
+}
+
+Sample Recorder::sample_at(double time, std::optional<int> only) const {
+  Sample sample;
+  sample.time = time;
+  const auto add = [&](const Course& course, std::span<const int> bodies) {
+    const Eigen::VectorXd q = course.state(time);
+    const Eigen::VectorXd rate = course.rate(time, q);
+    for (const int b : bodies) {
+      const World::Body& body = world_.bodies[static_cast<std::size_t>(b)];
+      sample.bodies[only ? 0 : static_cast<std::size_t>(b)] = body_state(body, q, rate);
+    }
+  };
+  sample.bodies.resize(only ? 1 : world_.bodies.size());
+  if (only) {
+    const int group = world_.bodies[static_cast<std::size_t>(*only)].group;
+    add(*courses_[static_cast<std::size_t>(group)], {&*only, 1});
+  } else {
+    for (const auto& course : courses_) add(*course, course->group().bodies);
+  }
+  for (const World::ExtraState& state : world_.states)
+    sample.states.push_back({state.name, courses_[static_cast<std::size_t>(state.group)]->state(time)[state.offset]});
+  return sample;
+}
+
+void Recorder::motion(Course& course, double t) {
+  if (!wishes_.motion) return;
+  if (const std::optional<MotionPiece> piece = course.hand_on(t)) observer_.motion(*piece);
+}
+
+void Recorder::impact(const Impact& impact) {
+  if (!result_.impacts.empty()) {
+    const Impact& last = result_.impacts.back();
+    const double apart = std::abs(impact.time - last.time);
+    const bool is_tie = impact.with != last.with && apart <= impact.time_error_bound + last.time_error_bound;
+    if (is_tie && impact.kind == ImpactKind::hit && last.kind == ImpactKind::hit)
+      warn_of_tie(last, impact.body, impact.with);
+  }
+  result_.impacts.push_back(impact);
+}
+
+void Recorder::warn_of_tie(const Impact& impact, const std::string& body, const std::string& with) {
+  warn("impacts of '" + impact.body + "' with '" + impact.with + "' and of '" + body + "' with '" + with +
+       "' are closer in time than their error bounds: which is first is decided by rounding");
+}
+
+void Recorder::warn(const std::string& text) {
+  if (std::ranges::find(result_.warnings, text) == result_.warnings.end()) result_.warnings.push_back(text);
+}
+
+void Recorder::end(RunStatus status, const std::string& failure) {
+  result_.status = status;
+  result_.failure = failure;
+}
+
+void Recorder::bound_final_errors() {
+  for (const auto& course : courses_) {
+    const Eigen::VectorXd bound = course->error_bound(result_.end_time);
+    for (const int b : course->group().bodies) {
+      BodyState& state = result_.final.bodies[static_cast<std::size_t>(b)];
+      const int offset = world_.bodies[static_cast<std::size_t>(b)].offset;
+      state.position_error_bound = bound.segment<3>(offset).norm();
+      state.velocity_error_bound = bound.segment<3>(offset + 3).norm();
+    }
+  }
+}
+
+RunResult Recorder::result() {
+  for (const auto& course : courses_) motion(*course, result_.end_time);
+  if (result_.status != RunStatus::stopped && last_sample_ != result_.end_time) sample(result_.end_time);
+  result_.final = sample_at(result_.end_time, std::nullopt);
+  bound_final_errors();
+  for (const auto& course : courses_) {
+    const StepStatistics statistics = course->statistics();
+    result_.statistics.steps += statistics.steps;
+    result_.statistics.rejected_steps += statistics.rejected_steps;
+    result_.statistics.law_evaluations += statistics.law_evaluations;
+    if (statistics.proposed_step > 0.0)  // of several motions, the smallest
+      result_.statistics.proposed_step = result_.statistics.proposed_step > 0.0
+                                             ? std::min(result_.statistics.proposed_step, statistics.proposed_step)
+                                             : statistics.proposed_step;
+    for (const std::string& warning : course->warnings()) warn(warning);
+  }
+  return std::move(result_);
+}
+
+}  // namespace trajet

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "course.hpp"
+#include "trajet/scene/world.hpp"
+#include "trajet/sim/run_observer.hpp"
+
+namespace trajet {
+
+/// What a run leaves behind: its result, and what its observer wants to hear on the way. It only reads.
+class Recorder {
+ public:
+  using Courses = std::vector<std::unique_ptr<Course>>;
+
+  /// All outlive the recorder.
+  Recorder(const World& world, const Courses& courses, RunObserver& observer);
+
+  /// Whether the observer wants the run to end.
+  bool is_interrupted(double time) { return observer_.interrupted(time); }
+
+  /// The regular samples behind the last one, up to `time`. False if the observer wants the run to end; then `time` is
+  /// how far it has come.
+  bool sample_until(double& time);
+  /// A sample of all bodies, or of one.
+  void sample(double time);
+  void sample(double time, int body);
+  /// The motion of a course on its current Segment up to time t.
+  void motion(Course& course, double t);
+
+  void impact(const Impact& impact);
+  void event(const EventRecord& event) { result_.events.push_back(event); }
+  /// Impacts of two pairs may each have been first.
+  void warn_of_tie(const Impact& impact, const std::string& body, const std::string& with);
+  void warn(const std::string& text);
+
+  /// How far the run has come, and what has become of it.
+  double end_time() const { return result_.end_time; }
+  void set_end_time(double time) { result_.end_time = time; }
+  RunStatus status() const { return result_.status; }
+  void end(RunStatus status, const std::string& failure = {});
+
+  /// Once, when the run is over.
+  RunResult result();
+
+ private:
+  Sample sample_at(double time, std::optional<int> body) const;
+  void bound_final_errors();
+
+  const World& world_;
+  const Courses& courses_;
+  RunObserver& observer_;
+  RunWishes wishes_;
+  double direction_;
+  RunResult result_;
+  long next_sample_ = 0;
+  std::optional<double> last_sample_;  // s, of all bodies
+};
+
+}  // namespace trajet

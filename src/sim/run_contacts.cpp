@@ -1,0 +1,146 @@
+#include <cmath>
+
+#include "impact_record.hpp"
+#include "jump_derivative.hpp"
+#include "run_loop.hpp"
+#include "ties.hpp"
+#include "trajet/collide/respond/restitution.hpp"
+#include "trajet/collide/sustain/rest.hpp"
+#include "trajet/geom/flat_faces.hpp"
+#include "trajet/law/evaluate.hpp"
+
+namespace trajet {
+namespace {
+
+/// So many impacts of one body at one instant are a body that cannot get away, not a motion.
+constexpr int kMaxImpactsAtOnce = 1000;
+
+/// kg; 1 where the body has none: impulses are per mass then.
+double mass_of(const World::Body& body, double t, const Eigen::VectorXd& q) {
+  double value = 1.0;
+  if (!body.mass) return value;
+  Evaluator<double> mass(*body.mass);
+  mass(t, q.data(), &value);
+  return value;
+}
+
+}  // namespace
+
+void RunLoop::handle_contact(int index, const Pair& met) {
+  Course& moving = course(index);
+  const Pair& pair = encounters_.pair(first_to_handle(world_, encounters_, met));
+  const World::Body& body = body_of(pair);
+  const World::Obstacle& obstacle = obstacle_of(pair);
+  const double time = met.contact.time;
+  const std::string names = "'" + body.name + "' with '" + obstacle.name + "'";
+  if (!is_round(body.solid))
+    return fail(time, "contact unresolved: body '" + body.name + "' comes within " +
+                          "the reach of its farthest point from obstacle '" + obstacle.name +
+                          "'; impacts of solids other than points and spheres are not supported yet");
+  if (pair.contact.status == ContactStatus::overlapping_at_start) {
+    if (time == world_.start)
+      throw InputError(body.where, "body '" + body.name + "' starts inside obstacle '" + obstacle.name + "'");
+    return fail(time, "body '" + body.name + "' is inside obstacle '" + obstacle.name + "'");
+  }
+  if (pair.contact.status == ContactStatus::unresolved) return fail(time, "contact of " + names + " is unresolved");
+  Impacts& impacts = last_impacts_[static_cast<std::size_t>(pair.id.body)];
+  impacts = {time, impacts.time == time ? impacts.count + 1 : 1};
+  if (impacts.count > kMaxImpactsAtOnce)
+    return fail(time, "body '" + body.name + "' has impact after impact with '" + obstacle.name + "' at one instant");
+
+  for (const int each : moving.group().bodies) encounters_.bound_times(each, moving);
+  Impact impact = describe(world_, pair, moving.state(time));
+  impact.time = time;
+  if (is_hit(pair.contact) && obstacle.on_hit == OnHit::bounce) {
+    if (goes_on_from_contact(index, pair, impact)) return enqueue(index);
+    return bounce(index, pair, impact);
+  }
+  recorder_.sample(time, pair.id.body);
+  if (is_hit(pair.contact) && obstacle.on_hit == OnHit::stop) {
+    recorder_.sample(time);
+    recorder_.impact(impact);
+    warn_of_hidden_ties(world_, encounters_, pair, impact, moving, recorder_);
+    return stop();
+  }
+  recorder_.sample(time, pair.id.body);
+  recorder_.impact(impact);
+  encounters_.pass(pair.id, moving);
+  for (const int each : moving.group().bodies) encounters_.search(each, moving, moving.next().time);
+  enqueue(index);
+}
+
+bool RunLoop::goes_on_from_contact(int index, const Pair& pair, const Impact& impact) {
+  Course& moving = course(index);
+  const int offset = body_of(pair).offset;
+  const Eigen::VectorXd rate = moving.rate(impact.time, moving.state(impact.time));
+  const double speed = impact.normal.dot(rate.segment<3>(offset));
+  const double pull = -impact.normal.dot(rate.segment<3>(offset + 3));
+  if (speed <= 0.0) return false;
+  // of the flight: u^2 / (2 g), or where nothing pulls back, that on the Segment
+  const double on_segment = speed * std::abs(moving.segment().t1() - impact.time);
+  const double height = pull > 0.0 ? speed * speed / (2.0 * pull) : on_segment;
+  if (!encounters_.stay_in_contact(pair.id, moving, height)) return false;
+  encounters_.search(pair.id.body, moving, moving.next().time);
+  return true;
+}
+
+void RunLoop::bounce(int index, Pair pair, Impact impact) {
+  Course& moving = course(index);
+  const World::Body& body = body_of(pair);
+  const double t = impact.time;
+  recorder_.sample(t, pair.id.body);
+
+  Instant instant(moving, t);
+  auto velocity = instant.q.segment<3>(body.offset + 3);
+  // the velocity of the centre is dr/dt, which a position_rate may set apart from v
+  const Vector3 approach = instant.rate().segment<3>(body.offset);
+  velocity += rebound(approach, impact.normal, obstacle_of(pair).restitution).impulse_per_mass;
+  instant.derivative = derivative_of_bounce(world_, pair, instant, moving.rate(t, instant.before()));
+  impact.velocity_after = velocity;
+  impact.impulse = mass_of(body, t, instant.q) * (impact.velocity_after - impact.velocity_before);
+  // else a flight so low that the Segment does not show it
+  const bool is_hit = approach.dot(impact.normal) <= 0.0;
+  if (is_hit) {
+    recorder_.impact(impact);
+    warn_of_hidden_ties(world_, encounters_, pair, impact, moving, recorder_);
+  }
+
+  lasting_contacts_.release_by_speed(instant, pair.id.body);
+  if (!rest(instant, pair, impact, !is_hit)) return;
+  const bool stops = settle_other_contacts(world_, encounters_, pair, impact, instant, recorder_);
+  ContactMemory memory = rebounded(pair.contact.memory);
+  memory.contact_time = t;
+  instant.memories.insert(instant.memories.begin(), {pair.id, memory});
+  go_on(index, instant);
+  recorder_.sample(t, pair.id.body);
+  lasting_contacts_.record_until(t);
+  if (stops) return stop();
+  advance(index);
+}
+
+bool RunLoop::rest(Instant& instant, const Pair& pair, const Impact& impact, bool is_hidden) {
+  const World::Body& body = body_of(pair);
+  const World::Obstacle& obstacle = obstacle_of(pair);
+  const double t = instant.time();
+  const Eigen::VectorXd rate = instant.rate();
+  const double speed = std::max(0.0, impact.normal.dot(rate.segment<3>(body.offset)));
+  const double pull = -impact.normal.dot(rate.segment<3>(body.offset + 3));
+  const bool is_low = is_hidden || is_below_flight(speed, pull, pair.contact.memory.tolerance);
+  if (pull <= 0.0 || obstacle.restitution >= 1.0 || !is_low) return true;
+  if (!is_flat_at(obstacle.shape, impact.point, impact.normal)) {
+    fail(t, "body '" + body.name + "' comes to rest on the curved or sharp part of obstacle '" + obstacle.name +
+                "', where trajet cannot follow it");
+    return false;
+  }
+  if (bounding_radius(body.solid) > 0.0 && moves_off(face_outline(obstacle.shape, impact.point, impact.normal),
+                                                     impact.position, instant.q.segment<3>(body.offset + 3))) {
+    fail(t, "body '" + body.name + "' slides over an edge of obstacle '" + obstacle.name +
+                "' too slowly to leave it, where trajet cannot follow it");
+    return false;
+  }
+  lasting_contacts_.begin(instant, pair.id, impact, t + bouncing_time(speed, pull, obstacle.restitution));
+  lasting_contacts_.release_by_force(instant, pair.id.body);
+  return true;
+}
+
+}  // namespace trajet

@@ -1,0 +1,200 @@
+#include "run_loop.hpp"
+
+#include <cmath>
+
+#include "impact_record.hpp"
+#include "jump_derivative.hpp"
+#include "ties.hpp"
+#include "trajet/law/evaluate.hpp"
+
+namespace trajet {
+namespace {
+
+std::string failure_text(StepStatus status) {
+  switch (status) {
+    case StepStatus::step_too_small:
+      return "the tolerance cannot be met: the step became too small";
+    case StepStatus::not_finite:
+      return "the law is not finite";
+    case StepStatus::ok:
+      break;
+  }
+  return {};
+}
+
+Recorder::Courses make_courses(const World& world) {
+  Recorder::Courses courses;
+  for (std::size_t g = 0; g < world.groups.size(); ++g)
+    courses.push_back(std::make_unique<Course>(world, static_cast<int>(g)));
+  return courses;
+}
+
+}  // namespace
+
+RunLoop::RunLoop(const World& world, RunObserver& observer)
+    : world_(world),
+      direction_(world.end < world.start ? -1.0 : 1.0),
+      courses_(make_courses(world)),
+      encounters_(world),
+      recorder_(world, courses_, observer),
+      lasting_contacts_(world, courses_, encounters_, recorder_),
+      last_impacts_(world.bodies.size()) {}
+
+RunLoop::Incident RunLoop::next(int index) const {
+  const Course& course = *courses_[static_cast<std::size_t>(index)];
+  const Crossing& crossing = course.next();
+  // at one time, events come first: an impact that ends the run must not hide them
+  Incident first{crossing.time, nullptr};
+  const bool is_end = crossing.kind == Crossing::Kind::segment_end;
+  for (const int body : course.group().bodies) {
+    const Pair* pair = encounters_.first(body);
+    if (pair == nullptr) continue;
+    const double ahead = direction_ * (first.time - pair->contact.time);
+    if (ahead > 0.0 || (ahead == 0.0 && is_end && first.contact == nullptr)) first = {pair->contact.time, pair};
+  }
+  return first;
+}
+
+double RunLoop::next_time() const {
+  if (!has_started_) return world_.start;
+  return running_ && !agenda_.empty() ? next(agenda_.next()).time : recorder_.end_time();
+}
+
+void RunLoop::start() {
+  has_started_ = true;
+  double time = world_.start;
+  if (!recorder_.sample_until(time)) return interrupt(time);
+  if (world_.end == world_.start) return;
+  for (std::size_t i = 0; i < courses_.size() && running_; ++i) advance(static_cast<int>(i));
+}
+
+bool RunLoop::step() {
+  if (!has_started_) {
+    start();
+  } else if (running_ && !agenda_.empty()) {
+    const int index = agenda_.next();
+    agenda_.pop();
+    const Incident incident = next(index);
+    double time = incident.time;
+    if (!recorder_.sample_until(time) || recorder_.is_interrupted(time)) {
+      interrupt(time);
+      return false;
+    }
+    recorder_.set_end_time(time);
+    lasting_contacts_.record_until(time);
+    if (incident.contact != nullptr) {
+      handle_contact(index, *incident.contact);
+    } else {
+      switch (course(index).next().kind) {
+        case Crossing::Kind::segment_end:
+          if (!course(index).finished()) advance(index);
+          break;
+        case Crossing::Kind::event:
+          handle_event(index);
+          break;
+        case Crossing::Kind::pull:
+        case Crossing::Kind::past_edge:
+          handle_contact_end(index);
+          break;
+      }
+    }
+  }
+  running_ = running_ && !agenda_.empty();
+  return running_;
+}
+
+void RunLoop::enqueue(int index) { agenda_.add(direction_ * (next(index).time - world_.start), index); }
+
+void RunLoop::advance(int index) {
+  Course& moving = course(index);
+  if (!moving.is_within_step() && ++step_count_ > world_.max_steps)
+    return fail(recorder_.end_time(), "more than max_steps = " + std::to_string(world_.max_steps) + " steps");
+  recorder_.motion(moving, moving.segment().t1());
+  for (const int body : moving.group().bodies) encounters_.keep(body, moving, moving.segment().t1());
+  if (const StepStatus status = moving.advance(); status != StepStatus::ok)
+    return fail(recorder_.end_time(), failure_text(status));
+  double until = moving.next().time;
+  for (const int body : moving.group().bodies) {
+    encounters_.follow(body, moving, until);
+    if (const Pair* pair = encounters_.first(body)) until = std::min(until, pair->contact.time);
+  }
+  enqueue(index);
+}
+
+void RunLoop::go_on(int index, const Instant& instant) {
+  Course& moving = course(index);
+  recorder_.motion(moving, instant.time());
+  for (const int body : moving.group().bodies) encounters_.keep(body, moving, instant.time());
+  moving.restart(instant);
+  encounters_.take(instant);
+}
+
+void RunLoop::handle_event(int index) {
+  Course& moving = course(index);
+  const Crossing crossing = moving.next();
+  const World::Event& event = world_.events[static_cast<std::size_t>(crossing.index)];
+  const EventWatch::Crossing found = moving.event_crossing(crossing.index);
+  if (found.undecided) return fail(crossing.time, "whether event '" + event.name + "' happens cannot be decided");
+  recorder_.event({crossing.time, event.name, found.direction});
+  switch (event.action) {
+    case EventAction::record:
+      moving.pass_event(crossing.index);
+      for (const int body : moving.group().bodies) encounters_.search(body, moving, moving.next().time);
+      enqueue(index);
+      return;
+    case EventAction::stop:
+      recorder_.sample(crossing.time);
+      return stop();
+    case EventAction::set:
+      break;
+  }
+  Instant instant(moving, crossing.time);
+  Eigen::VectorXd values(static_cast<Eigen::Index>(event.targets.size()));
+  Evaluator<double> set(event.set);
+  set(crossing.time, instant.before().data(), values.data());
+  for (std::size_t i = 0; i < event.targets.size(); ++i)
+    instant.q[event.targets[i]] = values[static_cast<Eigen::Index>(i)];
+  instant.derivative = derivative_of_set(event, instant, moving.rate(crossing.time, instant.before()));
+  moving.take_event(crossing.index);
+  lasting_contacts_.release_after_set(instant);
+  go_on(index, instant);
+  for (const int body : moving.group().bodies) {
+    const int offset = world_.bodies[static_cast<std::size_t>(body)].offset;
+    if (instant.q.segment<3>(offset) != instant.before().segment<3>(offset)) encounters_.forget(body);
+  }
+  advance(index);
+}
+
+void RunLoop::handle_contact_end(int index) {
+  Course& moving = course(index);
+  const Crossing crossing = moving.next();
+  Instant instant(moving, crossing.time);
+  const int body = instant.contacts[static_cast<std::size_t>(crossing.index)].body;
+  recorder_.sample(crossing.time, body);
+  recorder_.sample(crossing.time, body);
+  lasting_contacts_.leave(instant, crossing.index, crossing.kind == Crossing::Kind::past_edge);
+  go_on(index, instant);
+  advance(index);
+}
+
+void RunLoop::stop() {
+  recorder_.end(RunStatus::stopped);
+  running_ = false;
+  agenda_ = {};
+}
+
+void RunLoop::fail(double time, const std::string& reason) {
+  recorder_.set_end_time(time);
+  recorder_.end(RunStatus::failed, reason);
+  running_ = false;
+  agenda_ = {};
+}
+
+void RunLoop::interrupt(double time) {
+  recorder_.set_end_time(time);
+  recorder_.end(RunStatus::interrupted);
+  running_ = false;
+  agenda_ = {};
+}
+
+}  // namespace trajet

@@ -1,0 +1,82 @@
+#pragma once
+
+#include <limits>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "agenda.hpp"
+#include "encounters.hpp"
+#include "lasting_contacts.hpp"
+#include "recorder.hpp"
+#include "trajet/scene/world.hpp"
+
+namespace trajet {
+
+/// A run on its way: integrate, find what happens next, respond, go on from there. Nothing else in trajet joins the
+/// three.
+///
+/// Courses advance on their own, each by its own Segments. What happens is handled in the order of time over all of
+/// them, so that each time every course's current Segment covers that time.
+class RunLoop {
+ public:
+  RunLoop(const World& world, RunObserver& observer);
+
+  /// Handles what happens next. False when the run is over.
+  bool step();
+  bool is_over() const { return !running_; }
+  double next_time() const;
+  Recorder& recorder() { return recorder_; }
+
+ private:
+  /// What happens next to a course: a contact, or a crossing of its own.
+  struct Incident {
+    double time;
+    const Pair* contact;  // null: the course's next crossing
+  };
+
+  Incident next(int course) const;
+  void start();
+  void advance(int course);
+  void enqueue(int course);
+  /// The course goes on as the instant says.
+  void go_on(int course, const Instant& instant);
+
+  void handle_event(int course);
+  void handle_contact(int course, const Pair& met);
+  void handle_contact_end(int course);
+  /// Whether a contact is the last one still, from which the body moves away by its law; then the motion goes on.
+  bool goes_on_from_contact(int course, const Pair& pair, const Impact& impact);
+  void bounce(int course, Pair pair, Impact impact);
+  /// Begins a rest where the body, after its impact, will not fly any more; false if it cannot be followed.
+  bool rest(Instant& instant, const Pair& pair, const Impact& impact, bool is_hidden);
+
+  void stop();
+  void fail(double time, const std::string& reason);
+  void interrupt(double time);
+
+  Course& course(int index) { return *courses_[static_cast<std::size_t>(index)]; }
+  const World::Body& body_of(const Pair& pair) const { return world_.bodies[static_cast<std::size_t>(pair.id.body)]; }
+  const World::Obstacle& obstacle_of(const Pair& pair) const {
+    return world_.obstacles[static_cast<std::size_t>(pair.id.obstacle)];
+  }
+
+  const World& world_;
+  double direction_;
+  Recorder::Courses courses_;
+  Encounters encounters_;
+  Recorder recorder_;
+  LastingContacts lasting_contacts_;
+  Agenda agenda_;
+  bool has_started_ = false;
+  bool running_ = true;
+  long step_count_ = 0;
+  /// How many impacts a body had at its last instant of impact.
+  struct Impacts {
+    double time = std::numeric_limits<double>::quiet_NaN();
+    int count = 0;
+  };
+  std::vector<Impacts> last_impacts_;  // of each body
+};
+
+}  // namespace trajet

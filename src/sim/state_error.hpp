@@ -1,0 +1,54 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "trajet/ode/segment.hpp"
+#include "trajet/ode/system.hpp"
+
+namespace trajet {
+
+/// How far the state of a group may be off: the estimated errors of all steps so far, carried on by the derivatives of
+/// the flights and of what happened in between.
+///
+/// The error is G r with |r_j| <= 1: each column of G is what one error of one step has become. A step multiplies G by
+/// the derivative of its end by its start, exp(integral of the law's Jacobian), and adds columns of its own; an impact
+/// multiplies it by the derivative of the state behind it by the state before it, of which the impact's time is part.
+/// Where the columns become many, the shortest are replaced by the box around them [Girard2005].
+///
+/// Steps are kept and worked off where somebody asks.
+class StateError {
+ public:
+  explicit StateError(int dimension);
+
+  /// The motion under the law goes on behind time t on the Segment.
+  void pass(const System& law, const Segment<>& segment, double t);
+  /// The state has changed; `derivative`: of the state behind by the state before.
+  void jump(const Eigen::MatrixXd& derivative);
+  /// All steps are worked off: their laws may go.
+  void settle();
+
+  /// At time t on the Segment, behind what was passed, in each component's unit.
+  Eigen::VectorXd bound(const System& law, const Segment<>& segment, double t);
+  /// The same along one direction of the state.
+  double bound_along(const Eigen::VectorXd& direction, const System& law, const Segment<>& segment, double t);
+
+ private:
+  struct Step {
+    const System* law;
+    double start;     // s
+    double duration;  // s
+    Eigen::VectorXd at_start, in_middle, at_end;
+    Eigen::VectorXd error;  // that it adds
+  };
+
+  static Step step_until(const System& law, const Segment<>& segment, double t);
+  static Eigen::MatrixXd transition(const Step& step);
+  void add(const Eigen::VectorXd& error);
+  void reduce();
+
+  Eigen::MatrixXd generators_;  // (dimension x any number)
+  std::vector<Step> open_;      // that are yet to be worked off
+};
+
+}  // namespace trajet

@@ -1,0 +1,66 @@
+#include "ties.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "impact_record.hpp"
+
+namespace trajet {
+namespace {
+
+const World::Obstacle& obstacle_of(const World& world, const Pair& pair) {
+  return world.obstacles[static_cast<std::size_t>(pair.id.obstacle)];
+}
+
+const Pair& pair_of(const Encounters& encounters, PairId id) {
+  return *std::ranges::find(encounters.pairs(id.body), id, &Pair::id);
+}
+
+}  // namespace
+
+PairId first_to_handle(const World& world, const Encounters& encounters, const Pair& contact) {
+  const auto bounces = [&](const Pair& pair) {
+    return obstacle_of(world, pair).on_hit == OnHit::bounce && is_hit(pair.contact);
+  };
+  if (bounces(contact)) return contact.id;
+  for (const PairId id : encounters.met_at_once(contact))
+    if (bounces(pair_of(encounters, id))) return id;
+  return contact.id;
+}
+
+void warn_of_hidden_ties(const World& world, const Encounters& encounters, const Pair& handled, const Impact& impact,
+                         const Course& course, Recorder& recorder) {
+  for (const int body : course.group().bodies) {
+    if (obstacle_of(world, handled).on_hit == OnHit::bounce && body != handled.id.body) continue;
+    for (const Pair& other : encounters.pairs(body)) {
+      if (other.id == handled.id || other.contact.status != ContactStatus::hit) continue;
+      if (std::abs(other.contact.time - impact.time) <= impact.time_error_bound + other.contact.time_error_bound)
+        recorder.warn_of_tie(impact, world.bodies[static_cast<std::size_t>(body)].name, obstacle_of(world, other).name);
+    }
+  }
+}
+
+bool settle_other_contacts(const World& world, const Encounters& encounters, const Pair& handled, const Impact& impact,
+                           Instant& instant, Recorder& recorder) {
+  bool stops = false;
+  const Vector3 velocity = instant.rate().segment<3>(world.bodies[static_cast<std::size_t>(handled.id.body)].offset);
+  for (const PairId id : encounters.met_at_once(handled)) {
+    const Pair& pair = pair_of(encounters, id);
+    // of the two products of speeds and normals by which the bounce came about
+    const double rounding = 16.0 * kUnitRoundoff * (velocity.norm() + impact.velocity_before.norm());
+    if (velocity.dot(pair.contact.normal) < -rounding) continue;
+    ContactMemory memory = pair.contact.memory;
+    memory.side = pair.contact.side_before;
+    memory.contact_time = impact.time;
+    instant.memories.emplace_back(id, memory);
+    const OnHit on_hit = obstacle_of(world, pair).on_hit;
+    if (on_hit == OnHit::bounce && is_hit(pair.contact)) continue;
+    Impact passed = describe(world, pair, instant.before());
+    passed.time = impact.time;
+    recorder.impact(passed);
+    stops = stops || (on_hit == OnHit::stop && is_hit(pair.contact));
+  }
+  return stops;
+}
+
+}  // namespace trajet
