@@ -259,7 +259,7 @@ class Compiler {
   }
 
   int table(const SyntaxNode& node, int x) {
-    const std::filesystem::path path = std::filesystem::path(node.where.file).parent_path() / node.file;
+    const std::filesystem::path path = std::filesystem::path(node.where.file.str()).parent_path() / node.file;
     try {
       return graph_.table(path.string(), x);
     } catch (const FileError& error) {

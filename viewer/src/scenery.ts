@@ -74,10 +74,11 @@ export class Scenery {
   private addObstacle(name: string, shape: Exclude<ObstacleShape, { kind: "plane" }>): void {
     const geometry = obstacleGeometry(shape);
     const { scale } = this.frame;
-    const isClosed = shape.kind === "sphere" || shape.kind === "box";
+    const isClosed = shape.kind === "sphere" || shape.kind === "box" || (shape.kind === "mesh" && shape.closed);
     const mesh = new THREE.Mesh(geometry, isClosed ? this.closed : this.flat);
     mesh.scale.setScalar(scale);
-    const center: Vector = shape.kind === "triangle" ? shape.corners[0] : shape.center;
+    const center: Vector =
+      shape.kind === "triangle" ? shape.corners[0] : shape.kind === "mesh" ? shape.vertices[0] : shape.center;
     mesh.position.copy(this.frame.toView(center));
     const outline = new THREE.LineSegments(new THREE.EdgesGeometry(geometry, 20), this.edges);
     mesh.add(outline);
@@ -138,7 +139,7 @@ export class Scenery {
   }
 }
 
-/** An obstacle about its centre (a triangle about its first corner), in metres. */
+/** An obstacle about its centre (a triangle or a mesh about its first corner), in metres. */
 function obstacleGeometry(shape: Exclude<ObstacleShape, { kind: "plane" }>): THREE.BufferGeometry {
   switch (shape.kind) {
     case "sphere":
@@ -155,6 +156,13 @@ function obstacleGeometry(shape: Exclude<ObstacleShape, { kind: "plane" }>): THR
     case "triangle": {
       const [a, b, c] = shape.corners.map(vector);
       const geometry = new THREE.BufferGeometry().setFromPoints([new THREE.Vector3(), b.sub(a), c.sub(a)]);
+      geometry.computeVertexNormals();
+      return geometry;
+    }
+    case "mesh": {
+      const corners = shape.triangles.flatMap((triangle) => triangle.map((corner) => vector(shape.vertices[corner])));
+      const origin = vector(shape.vertices[0]);
+      const geometry = new THREE.BufferGeometry().setFromPoints(corners.map((corner) => corner.sub(origin)));
       geometry.computeVertexNormals();
       return geometry;
     }

@@ -195,5 +195,6 @@ Vector3 closest_point(const Triangle& triangle, const Vector3& p);
 /// The centre itself has no nearest point: the point in the direction of x then.
 Vector3 closest_point(const Sphere& sphere, const Vector3& p);
 Vector3 closest_point(const Box& box, const Vector3& p);
+Vector3 closest_point(const MeshSurface& surface, const Vector3& p);
 
 }  // namespace trajet
