@@ -2,8 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
+#include <string>
 #include <utility>
 
 #include "loopback_server.hpp"
@@ -14,11 +13,6 @@
 namespace trajet {
 
 namespace {
-
-std::string text_of(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
 
 /// The page of a scene as its file is now.
 class LivePage {

@@ -95,7 +95,7 @@ int run_command(const RunArguments& arguments) {
     json->finish();
   }
   if (html) {
-    const std::string page = page_html({{motion, report_json(result)}});
+    const std::string page = page_html({{motion, report_json(result)}}, {.scene_text = text_of(arguments.scene)});
     warn_of_large_page(page);
     html->write(page);
     html->finish();

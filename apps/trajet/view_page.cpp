@@ -7,6 +7,9 @@
 #include <algorithm>
 #include <cstdlib>
 #include <deque>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
 
 #include "run_monitor.hpp"
 #include "trajet/io/report_json.hpp"
@@ -15,6 +18,13 @@
 #include "trajet/sim/run.hpp"
 
 namespace trajet {
+
+std::string text_of(const std::string& path) {
+  std::error_code missing;
+  if (!std::filesystem::is_regular_file(path, missing)) return {};  // a pipe gives its text once
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
 
 ViewPage make_view_page(const ViewArguments& arguments, const PageOptions& options) {
   Scene scene = read_scene(arguments.scene);
@@ -45,7 +55,9 @@ ViewPage make_view_page(const ViewArguments& arguments, const PageOptions& optio
   if (!arguments.orientations.empty() && std::ranges::none_of(motions.front().world().bodies, turns))
     throw InputError({"--orientations"}, "no body of the scene turns");
   for (const std::string& way : arguments.orientations) add_variant({.orientation = way});
-  page.html = page_html(runs, options);
+  PageOptions with_text = options;
+  with_text.scene_text = text_of(arguments.scene);
+  page.html = page_html(runs, with_text);
   warn_of_large_page(page.html);
   return page;
 }

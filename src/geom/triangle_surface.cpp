@@ -8,7 +8,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "trajet/geom/distance.hpp"
+#include "trajet/geom/closest_point.hpp"
 
 namespace trajet {
 namespace {
@@ -200,8 +200,8 @@ SurfacePlace nearest_place(const SurfaceTriangles& surface, const Vector3& p) {
   return nearest;
 }
 
-Vector3 closest_point(const MeshSurface& surface, const Vector3& p) {
-  return nearest_place(*surface.triangles, p).point;
+Triangle nearest_triangle(const MeshSurface& surface, const Vector3& p) {
+  return surface.triangles->triangle(nearest_place(*surface.triangles, p).triangle);
 }
 
 double signed_distance(const MeshSurface& surface, const Vector3& p) {

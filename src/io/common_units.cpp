@@ -14,13 +14,11 @@ struct NamedUnit {
 };
 
 constexpr double kPi = std::numbers::pi;
-constexpr Dimension kPerTime{{0, 0, -1}};
-constexpr Dimension kEnergy{{2, 1, -2}};
-constexpr Dimension kAngularSpeed{{0, 0, -1, 0, 0, 0, 0, 1}};
+constexpr long double kExactPi = std::numbers::pi_v<long double>;
 
 /// Common units, so that an ordinary scene need not load the database of UDUNITS-2 (5 ms, more than the run of most
-/// scenes). A test holds each entry against UDUNITS-2, which lacks `deg` and `rev` and reads `mph` as milliphot, a
-/// brightness.
+/// scenes). A test holds each entry against UDUNITS-2, which lacks `deg`, `rev`, `fps` and `moa`, reads `mph` as
+/// milliphot, a brightness, `g0` as 1, and `mil` as a thousandth of an inch.
 constexpr std::array kCommonUnits{
     NamedUnit{"m", {1, 1, kLength}},
     NamedUnit{"cm", {1, 100, kLength}},
@@ -47,26 +45,39 @@ constexpr std::array kCommonUnits{
     NamedUnit{"lb", {45359237, 1e8, kMass}},
     NamedUnit{"slug", {0.45359237 * 9.80665, 0.3048, kMass}},  // lbf s^2/ft; UDUNITS-2 knows six digits
     NamedUnit{"grain", {6479891, 1e11, kMass}},
+    NamedUnit{"g0", {980665, 100000, kAcceleration}},
     NamedUnit{"N", {1, 1, kForce}},
     NamedUnit{"kN", {1000, 1, kForce}},
-    NamedUnit{"J", {1, 1, kEnergy}},
-    NamedUnit{"Hz", {1, 1, kPerTime}},
+    NamedUnit{"J", {1, 1, kTorque}},
+    NamedUnit{"Hz", {1, 1, kFrequency}},
     NamedUnit{"mph", {1609344, 3600000, kSpeed}},
+    NamedUnit{"fps", {3048, 10000, kSpeed}},
     NamedUnit{"knot", {1852, 3600, kSpeed}},
     NamedUnit{"rad", {1, 1, kAngle}},
-    NamedUnit{"deg", {kPi, 180, kAngle}},
-    NamedUnit{"degree", {kPi, 180, kAngle}},
-    NamedUnit{"degrees", {kPi, 180, kAngle}},
-    NamedUnit{"°", {kPi, 180, kAngle}},
-    NamedUnit{"rev", {2 * kPi, 1, kAngle}},
-    NamedUnit{"revolution", {2 * kPi, 1, kAngle}},
-    NamedUnit{"turn", {2 * kPi, 1, kAngle}},
-    NamedUnit{"rpm", {kPi, 30, kAngularSpeed}},
+    NamedUnit{"deg", {kPi, 180, kAngle, kExactPi / 180}},
+    NamedUnit{"degree", {kPi, 180, kAngle, kExactPi / 180}},
+    NamedUnit{"degrees", {kPi, 180, kAngle, kExactPi / 180}},
+    NamedUnit{"°", {kPi, 180, kAngle, kExactPi / 180}},
+    NamedUnit{"mrad", {1, 1000, kAngle}},
+    NamedUnit{"mil", {1, 1000, kAngle}},
+    NamedUnit{"moa", {kPi, 10800, kAngle, kExactPi / 10800}},
+    NamedUnit{"rev", {2 * kPi, 1, kAngle, 2 * kExactPi}},
+    NamedUnit{"revolution", {2 * kPi, 1, kAngle, 2 * kExactPi}},
+    NamedUnit{"turn", {2 * kPi, 1, kAngle, 2 * kExactPi}},
+    NamedUnit{"rpm", {kPi, 30, kAngularVelocity, kExactPi / 30}},
     NamedUnit{"%", {1, 100, kDimensionless}},
     NamedUnit{"1", {1, 1, kDimensionless}},
 };
 
+constexpr auto kNames = [] {
+  std::array<std::string_view, kCommonUnits.size()> names;
+  std::ranges::transform(kCommonUnits, names.begin(), &NamedUnit::name);
+  return names;
+}();
+
 }  // namespace
+
+std::span<const std::string_view> common_unit_names() { return kNames; }
 
 const Unit* common_unit(std::string_view name) {
   const auto found = std::ranges::find(kCommonUnits, name, &NamedUnit::name);

@@ -1,7 +1,12 @@
 #include "formula_text.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <filesystem>
+#include <utility>
+
+#include "table_file.hpp"
 
 namespace trajet::detail {
 
@@ -13,53 +18,122 @@ SourceLocation advanced(SourceLocation where, std::size_t offset) {
   return where;
 }
 
-Expression read_quantity(const QuantityText& quantity, const SourceLocation& where, const SourceLocation& where_unit,
-                         std::optional<Dimension> expected) {
-  Unit unit;
+/// The unit that a text names, if it names one.
+std::optional<Unit> unit_of(std::string_view text) {
   try {
-    unit = parse_unit(quantity.unit);
-  } catch (const InputError& error) {
-    throw InputError(where_unit, error.message());
-  }
-  if (expected && !interchangeable(unit.dimension, *expected))
-    throw InputError(where_unit, describe(*expected) + " expected, got " + describe(unit.dimension));
-  const double value = quantity.number * unit.numerator / unit.denominator;
-  if (!std::isfinite(value)) throw InputError(where, "the quantity is too large for a double");
-  return Expression::number(value, where);
-}
-
-bool is_unit(std::string_view text) {
-  try {
-    parse_unit(text);
-    return true;
+    return parse_unit(text);
   } catch (const InputError&) {
-    return false;
+    return std::nullopt;
   }
 }
 
-/// "500m/s": a number with a unit right behind it is no expression either; say what is missing.
-void refuse_missing_blank(std::string_view text, const SourceLocation& where) {
-  double number = 0.0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  if (error != std::errc() || end == text.data() + text.size()) return;
-  const auto length = static_cast<std::size_t>(end - text.data());
-  const std::string_view rest = text.substr(length);
-  const bool is_name = (rest.front() >= 'a' && rest.front() <= 'z') || (rest.front() >= 'A' && rest.front() <= 'Z');
-  if (is_name && is_unit(rest))
-    throw InputError(advanced(where, length), "a blank is missing between number and unit, write \"" +
-                                                  std::string(text.substr(0, length)) + " " + std::string(rest) + "\"");
+bool is_letter(char c) {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || static_cast<unsigned char>(c) >= 0x80;
+}
+
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
+
+/// "3 S" where a time is meant: the same letters in the other case, if that is a unit of the right dimension.
+std::string unit_in_other_case(std::string_view unit, const Dimension& expected) {
+  std::string other(unit);
+  for (char& c : other) {
+    if (c >= 'a' && c <= 'z') {
+      c = static_cast<char>(c - 'a' + 'A');
+    } else if (c >= 'A' && c <= 'Z') {
+      c = static_cast<char>(c - 'A' + 'a');
+    }
+  }
+  const std::optional<Unit> found = unit_of(other);
+  return found && interchangeable(found->dimension, expected) ? "; did you mean '" + other + "'?" : "";
+}
+
+/// "3,5 s" and "3,5": what other languages write for 3.5.
+void refuse_decimal_comma(std::string_view text, const SourceLocation& where) {
+  std::size_t i = text.starts_with('-') || text.starts_with('+') ? 1 : 0;
+  const std::size_t whole = i;
+  while (i < text.size() && is_digit(text[i])) ++i;
+  if (i == whole || i == text.size() || text[i] != ',') return;
+  const std::size_t comma = i++;
+  while (i < text.size() && is_digit(text[i])) ++i;
+  if (i == comma + 1 || (i < text.size() && text[i] != ' ')) return;
+  throw InputError(advanced(where, comma), "a number has a decimal point: write " + std::string(text.substr(0, comma)) +
+                                               "." + std::string(text.substr(comma + 1, i - comma - 1)));
 }
 
 }  // namespace
 
-Expression read_formula(std::string_view text, const SourceLocation& where, std::span<const std::string> dashed_names,
-                        std::optional<Dimension> expected) {
+void FormulaReader::add_name(std::string_view name) {
+  names_.emplace_back(name);
+  if (name.find('-') != std::string_view::npos) dashed_names_.emplace_back(name);
+}
+
+bool FormulaReader::is_name(std::string_view text) const { return std::ranges::find(names_, text) != names_.end(); }
+
+Expression FormulaReader::quantity(const QuantityText& quantity, const SourceLocation& where,
+                                   const SourceLocation& where_unit, std::optional<Dimension> expected) const {
+  const std::string unit_text(quantity.unit);
+  const std::string product = is_name(unit_text) ? "; for the value of " + unit_text + " write " +
+                                                       std::string(quantity.number_text) + "*" + unit_text
+                                                 : "";
+  Unit unit;
+  try {
+    unit = parse_unit(quantity.unit);
+  } catch (const InputError& error) {
+    throw InputError(where_unit, error.message() + product);
+  }
+  const double value = quantity.number * unit.numerator / unit.denominator;
+  const Expression result =
+      Expression::quantity({value, quantity.exact_number * unit.exact_factor}, unit.dimension, where);
+  if (expected) {
+    const Measure measure{.kind = Measure::Kind::known,
+                          .dimension = unit.dimension,
+                          .is_written = true,
+                          .is_frequency = unit.dimension == kFrequency};
+    const std::string fault = dimension_fault(measure, *expected);
+    if (!fault.empty())
+      throw InputError(where_unit, fault + (product.empty() ? unit_in_other_case(quantity.unit, *expected) : product));
+  }
+  if (!std::isfinite(value)) throw InputError(where, "the quantity is too large for a double");
+  return result;
+}
+
+/// "500m/s": a number with a unit right behind it is no expression either; say what is missing.
+void FormulaReader::refuse_missing_blank(std::string_view text, const SourceLocation& where) const {
+  double number = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (error != std::errc() || end == text.data() + text.size()) return;
+  const auto length = static_cast<std::size_t>(end - text.data());
+  const std::string rest(text.substr(length)), digits(text.substr(0, length));
+  if (!is_letter(rest.front())) return;
+  if (is_name(rest))
+    throw InputError(advanced(where, length),
+                     "an operator is missing between number and name, write " + digits + "*" + rest);
+  if (unit_of(rest))
+    throw InputError(advanced(where, length),
+                     "a blank is missing between number and unit, write \"" + digits + " " + rest + "\"");
+}
+
+Expression FormulaReader::read(std::string_view text, const SourceLocation& where,
+                               std::optional<Dimension> expected) const {
   if (const std::optional<QuantityText> quantity = split_quantity(text)) {
     const auto unit_offset = static_cast<std::size_t>(quantity->unit.data() - text.data());
-    return read_quantity(*quantity, where, advanced(where, unit_offset), expected);
+    return this->quantity(*quantity, where, advanced(where, unit_offset), expected);
   }
+  refuse_decimal_comma(text, where);
   refuse_missing_blank(text, where);
-  return Expression::parse(text, where, dashed_names);
+  return Expression::parse(text, where, dashed_names_);
+}
+
+void FormulaReader::read_tables(const Expression& formula) {
+  for (const Expression::TableUse& use : formula.tables()) {
+    if (tables_.contains(use.name)) continue;
+    const std::filesystem::path path = std::filesystem::path(scene_file_).parent_path() / use.name;
+    try {
+      tables_[use.name] = std::make_shared<const LookupTable>(read_table(path.string()));
+    } catch (const FileError& error) {
+      throw FileError(use.where, error.what());
+    }
+  }
 }
 
 }  // namespace trajet::detail

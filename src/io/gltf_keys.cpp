@@ -9,6 +9,7 @@
 
 #include "trajet/error.hpp"
 #include "trajet/io/gltf.hpp"
+#include "trajet/sim/state_at.hpp"
 
 namespace trajet::detail {
 
@@ -28,8 +29,8 @@ struct Moment {
 /// The motion of one body.
 class BodyMotion {
  public:
-  BodyMotion(const std::vector<MotionRecord::Piece>& pieces, const World::Body& body, double direction)
-      : pieces_(pieces), body_(body), direction_(direction) {}
+  BodyMotion(const MotionRecord& motion, const World::Body& body, double direction)
+      : world_(motion.world()), pieces_(motion.pieces(body.group)), body_(body), direction_(direction) {}
 
   // before a jump at t the piece that ends there counts, behind it the one that begins there
   Pose before(double t) const { return pose(piece_before(t)->segment, t); }
@@ -38,7 +39,7 @@ class BodyMotion {
   /// The largest angular velocity between two times, rad/s.
   double largest_spin(double from, double to) const {
     if (!body_.rotation) return 0.0;
-    const int w = body_.rotation->offset + body_.rotation->layout.size();
+    const int w = body_.slice().angular_velocity_index();
     double largest = 0.0;
     const auto last = piece_before(to);
     for (auto piece = piece_behind(from); piece <= last; ++piece) {
@@ -71,18 +72,14 @@ class BodyMotion {
   }
 
   Pose pose(const Segment<>& segment, double t) const {
-    const auto at = [&](int component) { return segment.value(component, t); };
-    const Vector3 position(at(body_.offset), at(body_.offset + 1), at(body_.offset + 2));
-    if (!body_.rotation) return {position, body_.q_WB};
-    const OrientationLayout& layout = body_.rotation->layout;
-    constexpr int kMostNumbers = 9;  // a matrix
-    double orientation[kMostNumbers] = {};
-    for (int i = 0; i < layout.size(); ++i) orientation[i] = at(body_.rotation->offset + i);
+    const Eigen::VectorXd q = state_at(world_, body_.group, segment, t);
+    const BodySlice slice = body_.slice();
+    if (!body_.rotation) return {slice.position(q), body_.q_WB};
     // glTF knows rotations only: what stretches is left out
-    const Matrix3 R_WB = layout.rotation(orientation);
-    return {position, Quaternion(nearest_rotation(R_WB))};
+    return {slice.position(q), Quaternion(nearest_rotation(body_.rotation->layout.rotation(slice.orientation(q))))};
   }
 
+  const World& world_;
   const std::vector<MotionRecord::Piece>& pieces_;
   const World::Body& body_;
   double direction_;
@@ -179,7 +176,7 @@ AnimationKeys animation_keys(const MotionRecord& motion, const RunResult& result
                              std::span<const double> jumps, double fps) {
   const auto& pieces = motion.pieces(body.group);
   if (pieces.empty()) return {};
-  const BodyMotion body_motion(pieces, body, result.end_time < result.start_time ? -1.0 : 1.0);
+  const BodyMotion body_motion(motion, body, result.end_time < result.start_time ? -1.0 : 1.0);
   const std::vector<Moment> all = moments(result, jumps, fps);
   KeyMaker maker(body_motion, body, result.start_time, all.size());
   for (const Moment& moment : all) maker.add(moment);

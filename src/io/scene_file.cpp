@@ -21,9 +21,11 @@ using detail::TomlEntry;
 /// Reads one scene: the document and what all of its tables share.
 class SceneReader {
  public:
-  SceneReader(std::string text, const std::string& file) : document_(std::move(text), file) { collect_dashed_names(); }
+  SceneReader(std::string text, const std::string& file) : document_(std::move(text), file), formulas_(file) {
+    collect_names();
+  }
 
-  Scene read() const {
+  Scene read() {
     constexpr std::array<std::string_view, 9> kKeys{"title",    "parameters", "time",  "method", "body",
                                                     "obstacle", "state",      "event", "exact"};
     const TableReader root = reader(document_.root(), "the scene", {document_.file(), 1, 1});
@@ -43,6 +45,7 @@ class SceneReader {
     for (const TableReader& table : array_of_tables(root, "state")) scene.states.push_back(read_state(table));
     for (const TableReader& table : array_of_tables(root, "event")) scene.events.push_back(read_event(table));
     if (root.has("exact")) read_exact(root.subtable("exact").titled("[exact]"), "", scene);
+    scene.tables = formulas_.tables();
     detail::check_names(scene);
     if (scene.bodies.empty() && scene.states.empty())
       throw InputError(root.where(), "nothing moves in this scene: a [[body]] or a [[state]] expected");
@@ -50,27 +53,24 @@ class SceneReader {
   }
 
  private:
-  TableReader reader(const toml::table& table, std::string title, SourceLocation where) const {
-    return {document_, table, std::move(title), std::move(where), dashed_names_};
+  TableReader reader(const toml::table& table, std::string title, SourceLocation where) {
+    return {document_, table, std::move(title), std::move(where), formulas_};
   }
 
-  /// Names with `-` must be known before the first expression is read.
-  void collect_dashed_names() {
-    const auto keep = [this](std::string_view name) {
-      if (name.find('-') != std::string_view::npos) dashed_names_.emplace_back(name);
-    };
+  /// They must be known before the first expression is read.
+  void collect_names() {
     for (const std::string_view group : {"body", "state"}) {
       const toml::array* tables = document_.root()[group].as_array();
       for (std::size_t i = 0; tables != nullptr && i < tables->size(); ++i) {
         const toml::table* table = tables->get(i)->as_table();
-        if (table != nullptr) keep((*table)["name"].value_or(std::string_view()));
+        if (table != nullptr) formulas_.add_name((*table)["name"].value_or(std::string_view()));
       }
     }
     if (const toml::table* parameters = document_.root()["parameters"].as_table())
-      for (const auto& [key, node] : *parameters) keep(key.str());
+      for (const auto& [key, node] : *parameters) formulas_.add_name(key.str());
   }
 
-  std::vector<TableReader> array_of_tables(const TableReader& root, std::string_view key) const {
+  std::vector<TableReader> array_of_tables(const TableReader& root, std::string_view key) {
     std::vector<TableReader> readers;
     if (!root.has(key)) return readers;
     const std::string title = "[[" + std::string(key) + "]]";
@@ -206,7 +206,7 @@ class SceneReader {
   }
 
   TomlDocument document_;
-  std::vector<std::string> dashed_names_;
+  detail::FormulaReader formulas_;
 };
 
 std::string read_text(const std::string& path) {

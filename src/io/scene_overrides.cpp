@@ -5,19 +5,30 @@
 
 #include "formula_text.hpp"
 #include "trajet/rigid/orientation.hpp"
+#include "trajet/scene/scene_units.hpp"
 #include "trajet/text/did_you_mean.hpp"
 
 namespace trajet {
 
 namespace {
 
-std::vector<std::string> dashed_names(const Scene& scene) {
-  std::vector<std::string> names;
-  const auto keep = [&](const std::string& name) {
-    if (name.find('-') != std::string::npos) names.push_back(name);
-  };
-  for (const NamedExpression& parameter : scene.parameters) keep(parameter.name);
-  return names;
+detail::FormulaReader formulas_of(const Scene& scene) {
+  detail::FormulaReader formulas(scene.file, scene.tables);
+  for (const NamedExpression& parameter : scene.parameters) formulas.add_name(parameter.name);
+  return formulas;
+}
+
+/// A parameter keeps the dimension of its text. Throws InputError where the new value has another one, warns where it
+/// has none.
+void keep_dimension(const Measure& before, const NamedExpression& parameter, Scene& scene) {
+  if (before.kind != Measure::Kind::known || !before.is_written) return;
+  const std::map<std::string, Measure, std::less<>> measures = parameter_measures(scene);
+  const Measure& now = measures.find(parameter.name)->second;
+  const std::string fault = dimension_fault(now, before.dimension);
+  if (!fault.empty()) throw InputError(parameter.where, fault);
+  if (now.kind != Measure::Kind::known && before.dimension != kDimensionless)
+    scene.warnings.push_back(parameter.where.file.str() + "=" + parameter.value.text() +
+                             " has no unit, where the scene has one: taken as " + describe(before.dimension));
 }
 
 void set_parameter(const std::string& assignment, Scene& scene) {
@@ -30,9 +41,14 @@ void set_parameter(const std::string& assignment, Scene& scene) {
     for (const NamedExpression& candidate : scene.parameters) known.push_back(candidate.name);
     throw InputError({"--set " + name}, "the scene has no parameter '" + name + "'" + did_you_mean(name, known));
   }
+  const Measure before = parameter_measures(scene).find(name)->second;
+  detail::FormulaReader formulas = formulas_of(scene);
   const std::string_view value = std::string_view(assignment).substr(equals + 1);
   parameter->where = {"--set " + name};
-  parameter->value = detail::read_formula(value, parameter->where, dashed_names(scene), std::nullopt);
+  parameter->value = formulas.read(value, parameter->where, std::nullopt);
+  formulas.read_tables(parameter->value);
+  scene.tables = formulas.tables();
+  keep_dimension(before, *parameter, scene);
 }
 
 }  // namespace
@@ -47,10 +63,10 @@ OrientationWay orientation_way(const std::string& name, const SourceLocation& wh
 
 void apply(const SceneOverrides& overrides, Scene& scene) {
   for (const std::string& assignment : overrides.parameters) set_parameter(assignment, scene);
-  const std::vector<std::string> dashed = dashed_names(scene);
+  const detail::FormulaReader formulas = formulas_of(scene);
   const auto replace = [&](std::optional<Expression>& target, const std::optional<std::string>& text,
                            const char* option, Dimension dimension) {
-    if (text) target = detail::read_formula(*text, {option}, dashed, dimension);
+    if (text) target = formulas.read(*text, {option}, dimension);
   };
   replace(scene.time.end, overrides.end, "--end", kTime);
   replace(scene.method.step, overrides.step, "--step", kTime);

@@ -1,5 +1,6 @@
 #include "scene_solids.hpp"
 
+#include <algorithm>
 #include <array>
 
 #include "mesh_file.hpp"
@@ -9,18 +10,24 @@ namespace trajet::detail {
 OrientationDefinition read_orientation(const TableReader& table) {
   OrientationDefinition orientation;
   orientation.where = table.where();
-  constexpr std::array<std::string_view, 4> kKeys{"axis", "angle", "quaternion", "matrix"};
+  constexpr std::array<std::string_view, 7> kKeys{"axis", "angle", "quaternion", "matrix", "roll", "pitch", "yaw"};
+  constexpr std::array<std::string_view, 3> kAngles{"roll", "pitch", "yaw"};
   table.check_keys(kKeys);
   const bool by_angle = table.has("axis") || table.has("angle");
-  const int forms = int{by_angle} + int{table.has("quaternion")} + int{table.has("matrix")};
+  const bool by_angles = std::ranges::any_of(kAngles, [&](std::string_view key) { return table.has(key); });
+  const int forms = int{by_angle} + int{table.has("quaternion")} + int{table.has("matrix")} + int{by_angles};
   if (forms != 1)
-    throw InputError(table.where(), "an orientation is one of {axis, angle}, {quaternion}, {matrix}; got " +
-                                        std::string(forms == 0 ? "none" : "several"));
+    throw InputError(table.where(),
+                     "an orientation is one of {axis, angle}, {quaternion}, {matrix}, {roll, pitch, yaw}; got " +
+                         std::string(forms == 0 ? "none" : "several"));
   if (by_angle) {
     orientation.axis = table.vector("axis", kDimensionless);
     orientation.angle_rad = table.scalar("angle", kAngle);
   } else if (table.has("quaternion")) {
     orientation.quaternion = table.scalars("quaternion", 4, kDimensionless);
+  } else if (by_angles) {
+    for (const std::string_view key : kAngles)
+      orientation.roll_pitch_yaw.push_back(table.has(key) ? table.scalar(key, kAngle) : Expression(0.0));
   } else {
     orientation.matrix = table.vectors("matrix", 3, kDimensionless);
   }

@@ -5,7 +5,7 @@
 
 namespace trajet::detail {
 
-/// Reads an orientation: an axis and an angle, a quaternion, or a matrix.
+/// Reads an orientation: an axis and an angle, a quaternion, a matrix, or roll, pitch and yaw.
 OrientationDefinition read_orientation(const TableReader& table);
 
 /// Reads the `color` of a body or an obstacle, if it has one.

@@ -1,6 +1,7 @@
 #include "toml_document.hpp"
 
 #include <algorithm>
+#include <charconv>
 
 namespace trajet::detail {
 
@@ -62,6 +63,17 @@ SourceLocation TomlDocument::location(const toml::source_position& position) con
   if (position.line < 1 || position.line > line_offsets_.size()) return {file_, 1, 1};
   const std::size_t column = offset(position) - line_offsets_[position.line - 1];
   return {file_, static_cast<int>(position.line), static_cast<int>(column) + 1};
+}
+
+long double TomlDocument::exact_number(const toml::node& node, double number) const {
+  const std::string_view written = std::string_view(text_).substr(offset(node.source().begin));
+  std::string digits;
+  for (const char c : written.substr(0, written.find_first_not_of("0123456789+-.eE_")))
+    if (c != '_' && !(c == '+' && digits.empty())) digits += c;
+  long double exact = number;
+  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), exact);
+  const bool is_read = error == std::errc() && end == digits.data() + digits.size();
+  return is_read && static_cast<double>(exact) == number ? exact : static_cast<long double>(number);
 }
 
 std::vector<TextPosition> TomlDocument::content_positions(const toml::value<std::string>& value) const {

@@ -29,6 +29,9 @@ class TomlDocument {
   SourceLocation location(const toml::node& node) const { return location(node.source().begin); }
   SourceLocation location(const toml::key& key) const { return location(key.source().begin); }
 
+  /// The number of a node in extended precision, from its text; `number` itself where that is not decimal.
+  long double exact_number(const toml::node& node, double number) const;
+
   /// Where each byte of a string's content stands, and where the content ends. Escape sequences count as the bytes they
   /// stand for.
   std::vector<TextPosition> content_positions(const toml::value<std::string>& value) const;

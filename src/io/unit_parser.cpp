@@ -3,6 +3,7 @@
 #include <cmath>
 #include <string>
 
+#include "likely_units.hpp"
 #include "trajet/error.hpp"
 #include "trajet/io/units.hpp"
 
@@ -54,7 +55,9 @@ class UnitParser {
       skip_blanks();
       if (rest_.empty() || rest_.front() == ')') return unit;
       divides = take("/");
-      if (!divides && !take("*") && !take(".")) take("·");
+      if (divides) continue;
+      if (rest_.starts_with("**")) fail("'**' is no sign of a power here, write ^: m/s^2");
+      if (!take("*") && !take(".")) take("·");
     }
   }
 
@@ -69,13 +72,15 @@ class UnitParser {
     if (name.empty()) fail(rest_.empty() ? "the name of a unit is missing" : "'" + std::string(rest_) + "' is no unit");
     if (const Unit* unit = detail::common_unit(name)) return *unit;
     if (const std::optional<Unit> unit = detail::udunits_unit(name)) return *unit;
-    fail("unknown unit '" + std::string(name) + "'");
+    fail("unknown unit '" + std::string(name) + "'" + detail::likely_unit(name));
   }
 
   /// Takes letters, `_` and what is not ASCII up to a sign of power; or one of the signs `%`, `'`, `"`.
   std::string_view take_name() {
     std::size_t length = 0;
     while (length < rest_.size() && is_name_byte(rest_[length]) && !starts_sign(rest_.substr(length))) ++length;
+    // the one name that ends in a digit
+    if (rest_.substr(0, length) == "g" && rest_.substr(1).starts_with('0')) length = 2;
     if (length == 0 && !rest_.empty() && (rest_[0] == '%' || rest_[0] == '\'' || rest_[0] == '"')) length = 1;
     const std::string_view name = rest_.substr(0, length);
     rest_.remove_prefix(length);
@@ -113,13 +118,14 @@ class UnitParser {
     for (int i = 0; i < exponent; ++i) {
       product.numerator *= factor.numerator;
       product.denominator *= factor.denominator;
+      product.exact_factor *= factor.exact_factor;
     }
     for (int i = 0; i > exponent; --i) {
       product.numerator *= factor.denominator;
       product.denominator *= factor.numerator;
+      product.exact_factor /= factor.exact_factor;
     }
-    for (std::size_t i = 0; i < Dimension::kBaseUnits; ++i)
-      product.dimension.powers[i] += exponent * factor.dimension.powers[i];
+    product.dimension = trajet::product(product.dimension, factor.dimension, exponent);
   }
 
   std::string_view rest_;

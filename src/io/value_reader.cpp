@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "formula_text.hpp"
 #include "trajet/text/did_you_mean.hpp"
 
 namespace trajet::detail {
@@ -97,11 +96,16 @@ Expression TableReader::expression_of(const toml::value<std::string>& value, std
         positions[std::min(offset + static_cast<std::size_t>(where.column) - 1, text.size())];
     return SourceLocation{document_.file(), position.line, position.column};
   };
-  try {
-    return read_formula(text, in_content, dashed_names_, expected).relocated(place);
-  } catch (const InputError& error) {
-    throw InputError(place(error.where()), error.message());
-  }
+  const auto read = [&] {
+    try {
+      return formulas_.read(text, in_content, expected).relocated(place);
+    } catch (const InputError& error) {
+      throw InputError(place(error.where()), error.message());
+    }
+  };
+  Expression formula = read();
+  formulas_.read_tables(formula);
+  return formula;
 }
 
 Expression TableReader::scalar_of(const toml::node& node, std::optional<Dimension> expected) const {
@@ -110,7 +114,7 @@ Expression TableReader::scalar_of(const toml::node& node, std::optional<Dimensio
   const SourceLocation where = document_.location(node);
   const double number = *node.value<double>();
   if (!std::isfinite(number)) throw InputError(where, "a finite number expected, got " + std::to_string(number));
-  return Expression::number(number, where);
+  return Expression::number({number, document_.exact_number(node, number)}, where);
 }
 
 Expression TableReader::vector_of(const toml::node& node, std::optional<Dimension> expected) const {
@@ -175,7 +179,7 @@ std::vector<Expression> TableReader::vector_list(std::string_view key, Dimension
 TableReader TableReader::subtable(std::string_view key) const {
   const toml::node& node = required(key);
   if (!node.is_table()) fail_type(node, quote(key) + ": a table expected");
-  return {document_, *node.as_table(), quote(key), document_.location(node), dashed_names_};
+  return {document_, *node.as_table(), quote(key), document_.location(node), formulas_};
 }
 
 std::optional<Expression> TableReader::optional_scalar(std::string_view key, Dimension expected) const {

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "formula_text.hpp"
 #include "toml_document.hpp"
 #include "trajet/io/units.hpp"
 #include "trajet/law/expression.hpp"
@@ -15,14 +16,13 @@ namespace trajet::detail {
 /// One table of a scene file: typed access to its values, every fault an InputError at its place.
 class TableReader {
  public:
-  /// `title` names the table in messages: `[time]`, `[[body]]`. `dashed_names`: names with `-` that expressions may
-  /// use.
+  /// `title` names the table in messages: `[time]`, `[[body]]`.
   TableReader(const TomlDocument& document, const toml::table& table, std::string title, SourceLocation where,
-              std::span<const std::string> dashed_names)
-      : document_(document), table_(table), title_(std::move(title)), where_(where), dashed_names_(dashed_names) {}
+              FormulaReader& formulas)
+      : document_(document), table_(table), title_(std::move(title)), where_(where), formulas_(formulas) {}
 
   /// The same table under another title.
-  TableReader titled(std::string title) const { return {document_, table_, std::move(title), where_, dashed_names_}; }
+  TableReader titled(std::string title) const { return {document_, table_, std::move(title), where_, formulas_}; }
 
   const std::string& title() const { return title_; }
   const toml::table& table() const { return table_; }
@@ -72,7 +72,7 @@ class TableReader {
   const toml::table& table_;
   std::string title_;
   SourceLocation where_;
-  std::span<const std::string> dashed_names_;
+  FormulaReader& formulas_;
 };
 
 }  // namespace trajet::detail

@@ -12,16 +12,16 @@ namespace {
 using detail::Formula;
 using detail::SyntaxNode;
 
-SyntaxNode number_node(double value, const SourceLocation& where) {
+SyntaxNode number_node(const ExtendedConstant& value, const SourceLocation& where) {
   SyntaxNode node;
   node.where = where;
   node.value = value;
-  node.text = shortest_text(value);
+  node.text = shortest_text(value.value);
   return node;
 }
 
-Formula number_formula(double value, const SourceLocation& where) {
-  return {number_node(value, where), where, shortest_text(value)};
+Formula number_formula(const ExtendedConstant& value, const SourceLocation& where) {
+  return {number_node(value, where), where, shortest_text(value.value)};
 }
 
 Formula vector_formula(const SyntaxNode& x, const SyntaxNode& y, const SyntaxNode& z, const SourceLocation& where,
@@ -39,6 +39,12 @@ void collect_names(const SyntaxNode& node, std::vector<std::string>& names) {
   if (node.kind == SyntaxNode::Kind::name && std::ranges::find(names, node.text) == names.end())
     names.push_back(node.text);
   for (const SyntaxNode& child : node.children) collect_names(child, names);
+}
+
+void collect_tables(const SyntaxNode& node, std::vector<Expression::TableUse>& tables) {
+  const bool is_table = node.kind == SyntaxNode::Kind::operation && node.operation == detail::Operation::table;
+  if (is_table) tables.push_back({node.table, node.where});
+  for (const SyntaxNode& child : node.children) collect_tables(child, tables);
 }
 
 void relocate(SyntaxNode& node, const std::function<SourceLocation(const SourceLocation&)>& place) {
@@ -71,8 +77,15 @@ Expression Expression::vector(const Expression& x, const Expression& y, const Ex
                                    "[" + x.text() + ", " + y.text() + ", " + z.text() + "]"));
 }
 
-Expression Expression::number(double value, const SourceLocation& where) {
+Expression Expression::number(const ExtendedConstant& value, const SourceLocation& where) {
   return Expression(number_formula(value, where));
+}
+
+Expression Expression::quantity(const ExtendedConstant& value, const Dimension& dimension,
+                                const SourceLocation& where) {
+  Formula formula = number_formula(value, where);
+  formula.root.dimension = dimension;
+  return Expression(std::move(formula));
 }
 
 Expression Expression::relocated(const std::function<SourceLocation(const SourceLocation&)>& place) const {
@@ -100,6 +113,12 @@ std::vector<std::string> Expression::names() const {
   std::vector<std::string> names;
   collect_names(root(), names);
   return names;
+}
+
+std::vector<Expression::TableUse> Expression::tables() const {
+  std::vector<TableUse> tables;
+  collect_tables(root(), tables);
+  return tables;
 }
 
 bool is_reserved_name(std::string_view name) {

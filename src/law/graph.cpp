@@ -11,9 +11,28 @@ namespace trajet::detail {
 namespace {
 
 /// Division by k is multiplication by 1/k to the last bit where k is a power of two and 1/k a normal number.
-bool has_exact_reciprocal(double k) {
+bool has_exact_reciprocal(const ExtendedConstant& k) {
   int exponent = 0;
-  return std::abs(std::frexp(k, &exponent)) == 0.5 && std::isnormal(1.0 / k);
+  return k.remainder == 0.0 && std::abs(std::frexp(k.value, &exponent)) == 0.5 && std::isnormal(1.0 / k.value);
+}
+
+std::array<std::uint64_t, 2> bits(const ExtendedConstant& k) {
+  return {std::bit_cast<std::uint64_t>(k.value), std::bit_cast<std::uint64_t>(k.remainder)};
+}
+
+/// Whether the result is decided in double precision: what chooses must choose alike in every precision.
+bool is_decided_in_double(Opcode opcode) {
+  switch (opcode) {
+    case Opcode::less:
+    case Opcode::less_equal:
+    case Opcode::equal:
+    case Opcode::sign:
+    case Opcode::floor:
+    case Opcode::table:
+      return true;
+    default:
+      return false;
+  }
 }
 
 bool is_commutative(Opcode opcode) {
@@ -52,7 +71,7 @@ int operand_count(Opcode opcode) {
 }
 
 std::size_t Graph::KeyHash::operator()(const Key& key) const {
-  std::uint64_t hash = key.constant_bits + static_cast<std::uint64_t>(key.opcode);
+  std::uint64_t hash = key.constant_bits[0] + 31 * key.constant_bits[1] + static_cast<std::uint64_t>(key.opcode);
   for (const int operand : key.operands) {
     hash =
         (hash ^ static_cast<std::uint64_t>(operand)) * 0x9e3779b97f4a7c15ULL;  // 2^64 / golden ratio: spreads the bits
@@ -67,9 +86,29 @@ Graph::Graph(int input_count) : input_count_(input_count) {
   nodes_.assign(static_cast<std::size_t>(input_count), input);
 }
 
-int Graph::constant(double value) {
-  const auto [place, is_new] =
-      known_constants_.try_emplace(std::bit_cast<std::uint64_t>(value), static_cast<int>(nodes_.size()));
+Graph::Graph(const Program& program) : Graph(program.input_count) {
+  tables_ = program.tables;
+  std::vector<int> nodes(static_cast<std::size_t>(program.slot_count));  // of the slots
+  const auto node_in = [&](std::int32_t slot) -> int& { return nodes[static_cast<std::size_t>(slot)]; };
+  for (int i = 0; i < input_count_; ++i) node_in(i) = i;
+  for (const Program::Constant& each : program.constants) node_in(each.slot) = constant(each.value);
+  for (const Instruction& i : program.instructions) {
+    const auto* twins = std::ranges::find(kTwins, i.opcode, &Twins::both);
+    if (twins != std::end(kTwins)) {
+      node_in(i.result) = operation(twins->sine, {node_in(i.a)});
+      node_in(i.b) = operation(twins->cosine, {node_in(i.a)});
+      continue;
+    }
+    const int count = operand_count(i.opcode);
+    std::array<int, 3> operands{node_in(i.a), count > 1 ? node_in(i.b) : 0, count > 2 ? node_in(i.c) : 0};
+    if (i.opcode == Opcode::table) operands[1] = i.b;
+    node_in(i.result) = operation(i.opcode, operands, i.constant);
+  }
+  for (const std::int32_t slot : program.outputs) reopened_outputs_.push_back(node_in(slot));
+}
+
+int Graph::constant(const ExtendedConstant& value) {
+  const auto [place, is_new] = known_constants_.try_emplace({{}, {}, bits(value)}, static_cast<int>(nodes_.size()));
   if (is_new) {
     Node node;
     node.kind = Node::Kind::constant;
@@ -79,12 +118,12 @@ int Graph::constant(double value) {
   return place->second;
 }
 
-std::optional<double> Graph::constant_value(int index) const {
+std::optional<ExtendedConstant> Graph::constant_value(int index) const {
   if (node(index).kind != Node::Kind::constant) return std::nullopt;
   return node(index).constant;
 }
 
-int Graph::operation(Opcode opcode, std::array<int, 3> operands, double constant) {
+int Graph::operation(Opcode opcode, std::array<int, 3> operands, const ExtendedConstant& constant) {
   if (is_commutative(opcode) && operands[0] > operands[1]) std::swap(operands[0], operands[1]);
   Node node;
   node.opcode = opcode;
@@ -95,17 +134,23 @@ int Graph::operation(Opcode opcode, std::array<int, 3> operands, double constant
                   [this](int o) { return constant_value(o).has_value(); })) {
     return fold(node);
   }
-  const auto [place, is_new] =
-      known_.try_emplace({opcode, operands, std::bit_cast<std::uint64_t>(constant)}, static_cast<int>(nodes_.size()));
+  const auto [place, is_new] = known_.try_emplace({opcode, operands, bits(constant)}, static_cast<int>(nodes_.size()));
   if (is_new) nodes_.push_back(node);
   return place->second;
 }
 
 int Graph::fold(const Node& node) {
+  const double value = computed<double>(node);
+  if (is_decided_in_double(node.opcode)) return constant(value);
+  return constant({value, computed<long double>(node)});
+}
+
+template <class T>
+T Graph::computed(const Node& node) const {
   // slots: three operands and the result
-  std::array<double, 4> slots{};
+  std::array<T, 4> slots{};
   for (std::size_t i = 0; i < static_cast<std::size_t>(operand_count(node.opcode)); ++i) {
-    slots[i] = *constant_value(node.operands[i]);
+    slots[i] = constant_value(node.operands[i])->template as<T>();
   }
   Program program;
   Instruction instruction{node.opcode, 3, 0, 1, 2, node.constant};
@@ -115,11 +160,11 @@ int Graph::fold(const Node& node) {
   }
   program.instructions.push_back(instruction);
   run_instructions(program, slots.data());
-  return constant(slots[3]);
+  return slots[3];
 }
 
-int Graph::add_constant(int a, double k) {
-  if (k == 0.0) return a;
+int Graph::add_constant(int a, const ExtendedConstant& k) {
+  if (k.value == 0.0) return a;
   if (is(a, Opcode::negate)) return operation(Opcode::constant_minus, {operand(a)}, k);
   return operation(Opcode::add_constant, {a}, k);
 }
@@ -143,7 +188,7 @@ int Graph::subtract(int a, int b) {
 }
 
 int Graph::negate(int a) {
-  const double k = node(a).constant;
+  const ExtendedConstant k = node(a).constant;
   if (node(a).kind == Node::Kind::constant) return constant(-k);
   if (is(a, Opcode::negate)) return operand(a);
   if (is(a, Opcode::subtract)) return operation(Opcode::subtract, {operand(a, 1), operand(a, 0)});
@@ -155,9 +200,9 @@ int Graph::negate(int a) {
   return operation(Opcode::negate, {a});
 }
 
-int Graph::multiply_constant(int a, double k) {
-  if (k == 1.0) return a;
-  if (k == -1.0) return negate(a);
+int Graph::multiply_constant(int a, const ExtendedConstant& k) {
+  if (k == ExtendedConstant(1.0)) return a;
+  if (k == ExtendedConstant(-1.0)) return negate(a);
   if (is(a, Opcode::negate)) return multiply_constant(operand(a), -k);
   return operation(Opcode::multiply_constant, {a}, k);
 }
@@ -172,8 +217,8 @@ int Graph::multiply(int a, int b) {
   return operation(Opcode::multiply, {a, b});
 }
 
-int Graph::divide_constant(int a, double k) {
-  if (has_exact_reciprocal(k)) return multiply_constant(a, 1.0 / k);
+int Graph::divide_constant(int a, const ExtendedConstant& k) {
+  if (has_exact_reciprocal(k)) return multiply_constant(a, 1.0 / k.value);
   if (is(a, Opcode::negate)) return operation(Opcode::divide_constant, {operand(a)}, -k);
   return operation(Opcode::divide_constant, {a}, k);
 }
@@ -201,11 +246,11 @@ int Graph::power(int a, int b) {
   if (!exponent) return operation(Opcode::power, {a, b});
   // Up to here a chain of products is as accurate as pow to a few units in the last place, and much faster.
   constexpr double kLargestExponent = 32.0;
-  const double k = *exponent;
+  const double k = exponent->value;
   if (k == 0.0) return constant(1.0);  // also of not-a-number, as pow has it
   const double size = std::abs(k), whole = std::floor(size);
   const bool is_half = size - whole == 0.5;
-  if (size > kLargestExponent || (size != whole && !is_half)) return operation(Opcode::power_constant, {a}, k);
+  if (size > kLargestExponent || (size != whole && !is_half)) return operation(Opcode::power_constant, {a}, *exponent);
   int result = whole > 0.0 ? integer_power(a, static_cast<int>(whole)) : -1;
   if (is_half) result = result < 0 ? sqrt(a) : multiply(result, sqrt(a));
   return k > 0.0 ? result : divide(constant(1.0), result);
@@ -242,15 +287,16 @@ int Graph::norm(int x, int y, int z) {
 }
 
 int Graph::where(int condition, int then, int otherwise) {
-  if (const auto k = constant_value(condition)) return *k != 0.0 ? then : otherwise;
+  if (const auto k = constant_value(condition)) return k->value != 0.0 ? then : otherwise;
   if (then == otherwise) return then;
   return operation(Opcode::where, {condition, then, otherwise});
 }
 
-int Graph::table(const std::string& path, int x) {
-  const auto [place, is_new] = known_tables_.try_emplace(path, static_cast<int>(tables_.size()));
-  if (is_new) tables_.push_back(std::make_shared<const Table>(Table::read(path)));
-  return operation(Opcode::table, {x, place->second});
+int Graph::table(const std::shared_ptr<const LookupTable>& table, int x) {
+  const auto known = std::ranges::find(tables_, table);
+  const auto index = static_cast<int>(known - tables_.begin());
+  if (known == tables_.end()) tables_.push_back(table);
+  return operation(Opcode::table, {x, index});
 }
 
 int Graph::apply(Opcode opcode, int a, int b) { return operation(opcode, {a, b}); }
@@ -272,7 +318,7 @@ int Graph::find_twin(const Node& node, const std::vector<bool>& live) const {
       std::ranges::find_if(kTwins, [&](const Twins& t) { return t.sine == node.opcode || t.cosine == node.opcode; });
   if (twins == std::end(kTwins)) return -1;
   const Opcode other = node.opcode == twins->sine ? twins->cosine : twins->sine;
-  const auto found = known_.find({other, node.operands, std::bit_cast<std::uint64_t>(node.constant)});
+  const auto found = known_.find({other, node.operands, bits(node.constant)});
   return found != known_.end() && live[static_cast<std::size_t>(found->second)] ? found->second : -1;
 }
 

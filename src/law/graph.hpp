@@ -2,11 +2,9 @@
 
 #include <array>
 #include <cstdint>
-#include <map>
 #include <memory>
 #include <optional>
 #include <span>
-#include <string>
 #include <unordered_map>
 #include <vector>
 
@@ -20,12 +18,18 @@ namespace trajet::detail {
 class Graph {
  public:
   explicit Graph(int input_count);
+  /// The computations of a program, as it has them: nothing is simplified.
+  explicit Graph(const Program& program);
 
-  int input(int index) const { return index; }
-  int constant(double value);
+  int constant(const ExtendedConstant& value);
   /// The value of a node that is a constant.
-  std::optional<double> constant_value(int node) const;
-  bool is_constant(int node, double value) const { return constant_value(node) == value; }
+  std::optional<ExtendedConstant> constant_value(int node) const;
+  bool is_constant(int node, double value) const {
+    const auto k = constant_value(node);
+    return k && k->value == value;
+  }
+  /// The nodes of the outputs of the program that the graph was made of.
+  const std::vector<int>& reopened_outputs() const { return reopened_outputs_; }
 
   int add(int a, int b);
   int subtract(int a, int b);
@@ -38,8 +42,7 @@ class Graph {
   int norm(int x, int y, int z);
   /// `then` where the condition is not 0.
   int where(int condition, int then, int otherwise);
-  /// The table of a file, which is read once.
-  int table(const std::string& path, int x);
+  int table(const std::shared_ptr<const LookupTable>& table, int x);
   /// Any other opcode of one or two operands.
   int apply(Opcode opcode, int a, int b = 0);
 
@@ -51,12 +54,13 @@ class Graph {
     Kind kind = Kind::operation;
     Opcode opcode = Opcode::add;
     std::array<int, 3> operands{};
-    double constant = 0.0;
+    ExtendedConstant constant{};
   };
+  /// What tells two nodes apart: of constants the bits, so that 0 and -0 stay two.
   struct Key {
     Opcode opcode;
     std::array<int, 3> operands;
-    std::uint64_t constant_bits;
+    std::array<std::uint64_t, 2> constant_bits;
     bool operator==(const Key&) const = default;
   };
   struct KeyHash {
@@ -70,11 +74,14 @@ class Graph {
   int operand(int index, int which = 0) const { return node(index).operands[static_cast<std::size_t>(which)]; }
 
   /// The node of that operation, a constant if all its operands are.
-  int operation(Opcode opcode, std::array<int, 3> operands, double constant = 0.0);
+  int operation(Opcode opcode, std::array<int, 3> operands, const ExtendedConstant& constant = {});
   int fold(const Node& node);
-  int add_constant(int a, double k);
-  int multiply_constant(int a, double k);
-  int divide_constant(int a, double k);
+  /// The value of an operation on constants, computed in numbers of type T.
+  template <class T>
+  T computed(const Node& node) const;
+  int add_constant(int a, const ExtendedConstant& k);
+  int multiply_constant(int a, const ExtendedConstant& k);
+  int divide_constant(int a, const ExtendedConstant& k);
   int integer_power(int a, int exponent);
   /// Appends the x_i of a sum of squares x_0^2 + x_1^2 + …; false if `index` is anything else or has too many terms.
   bool collect_squares(int index, std::vector<int>& terms) const;
@@ -90,9 +97,9 @@ class Graph {
   int input_count_;
   std::vector<Node> nodes_;
   std::unordered_map<Key, int, KeyHash> known_;
-  std::unordered_map<std::uint64_t, int> known_constants_;
-  std::vector<std::shared_ptr<const Table>> tables_;
-  std::map<std::string, int> known_tables_;
+  std::unordered_map<Key, int, KeyHash> known_constants_;
+  std::vector<std::shared_ptr<const LookupTable>> tables_;
+  std::vector<int> reopened_outputs_;
 };
 
 /// How many of its operands a, b, c an opcode reads from slots.

@@ -30,9 +30,16 @@ struct ForeignOperator {
 };
 
 /// What other languages write, longest first.
-constexpr ForeignOperator kForeignOperators[] = {{"**", "^"},  {"&&", "and"}, {"||", "or"}, {"<>", "!="},
-                                                 {"!", "not"}, {"&", "and"},  {"|", "or"},  {"=", "=="},
-                                                 {";", ","},   {"{", "("},    {"}", ")"}};
+constexpr ForeignOperator kForeignOperators[] = {{"**", "^"},  {"&&", "and"}, {"||", "or"}, {"<>", "!="}, {"!", "not"},
+                                                 {"&", "and"}, {"=", "=="},   {";", ","},   {"{", "("},   {"}", ")"}};
+
+/// What to write for a character that other notations have.
+std::string_view remedy(std::string_view rest) {
+  if (rest.starts_with('|')) return ": write abs(x), of a vector norm(v); 'or' joins conditions";
+  if (rest.starts_with('?') || rest.starts_with(':')) return ": write where(c, a, b) for c ? a : b";
+  if (rest.starts_with("°")) return ": angles are in radians, write x*pi/180 or give a parameter in deg";
+  return "";
+}
 
 constexpr std::string_view kSymbols[] = {"<=", ">=", "==", "!=", "+", "-", "*", "/",
                                          "^",  "<",  ">",  "(",  ")", "[", "]", ","};
@@ -79,8 +86,10 @@ Token Lexer::number() {
   if (error != std::errc()) {
     fail("the number " + std::string(digits.substr(0, 40)) + " is outside the range of double precision");
   }
+  long double exact = value;
+  std::from_chars(begin, end, exact);
   Token token = take(TokenKind::number, digits.size());
-  token.value = value;
+  token.value = {value, exact};
   return token;
 }
 
@@ -127,7 +136,7 @@ Token Lexer::symbol() {
   for (const std::string_view symbol : kSymbols) {
     if (rest.starts_with(symbol)) return take(TokenKind::symbol, symbol.size());
   }
-  fail(quote_character(text_, position_) + " is not allowed in an expression");
+  fail(quote_character(text_, position_) + " is not allowed in an expression" + std::string(remedy(rest)));
 }
 
 }  // namespace trajet::detail

@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "trajet/error.hpp"
+#include "trajet/math/extended_constant.hpp"
 
 namespace trajet::detail {
 
@@ -16,7 +17,7 @@ struct Token {
   std::string_view text;
   int line = 1;
   int column = 1;
-  double value = 0.0;  ///< number
+  ExtendedConstant value{};  ///< number
 };
 
 /// Cuts a formula into tokens.

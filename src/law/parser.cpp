@@ -29,6 +29,20 @@ constexpr FunctionInfo kFunctions[] = {
     {"unit", Operation::unit, 1, 1},        {"where", Operation::where, 3, 3}, {"table", Operation::table, 2, 2},
 };
 
+/// What other languages call a function, and what to write.
+struct ForeignFunction {
+  std::string_view name;
+  std::string_view ours;
+};
+constexpr ForeignFunction kForeignFunctions[] = {
+    {"ln", "log(x)"},       {"lg", "log10(x)"},          {"if", "where(c, a, b)"},    {"iif", "where(c, a, b)"},
+    {"length", "norm(v)"},  {"mag", "norm(v)"},          {"magnitude", "norm(v)"},    {"normalize", "unit(v)"},
+    {"fabs", "abs(x)"},     {"sgn", "sign(x)"},          {"mod", "x - y*floor(x/y)"}, {"fmod", "x - y*floor(x/y)"},
+    {"ceil", "-floor(-x)"}, {"round", "floor(x + 0.5)"}, {"square", "x^2"},           {"arcsin", "asin(x)"},
+    {"arccos", "acos(x)"},  {"arctan", "atan(x)"},       {"arctan2", "atan2(y, x)"},  {"interp", "table(\"FILE\", x)"},
+    {"deg", "x*180/pi"},    {"rad", "x*pi/180"},         {"radians", "x*pi/180"},     {"degrees", "x*180/pi"},
+};
+
 /// An infix operator: it takes an operand on its right whose operators bind tighter than `right`.
 struct InfixOperator {
   std::string_view text;
@@ -75,6 +89,8 @@ class Parser {
   SyntaxNode expression(int power) {
     if (++nesting_ > kMaxNesting) fail("nested deeper than " + std::to_string(kMaxNesting) + " levels");
     SyntaxNode left = operand();
+    if (left.kind == SyntaxNode::Kind::name && is_symbol("["))
+      fail("a component has a name: vx, vy, vz of v, x, y, z of r; of '" + left.text + "' there is no '['");
     bool compared = false;
     while (const InfixOperator* infix = infix_operator()) {
       if (infix->left < power) break;
@@ -159,6 +175,9 @@ class Parser {
 
   SyntaxNode call(SyntaxNode node, const FunctionInfo* function) {
     if (function == nullptr) {
+      const auto foreign = std::ranges::find(kForeignFunctions, node.text, &ForeignFunction::name);
+      if (foreign != std::end(kForeignFunctions))
+        throw InputError(node.where, "there is no function '" + node.text + "': write " + std::string(foreign->ours));
       std::vector<std::string_view> names;
       for (const FunctionInfo& known : kFunctions) names.push_back(known.name);
       throw InputError(node.where, "there is no function '" + node.text + "'" + did_you_mean(node.text, names));
@@ -168,7 +187,7 @@ class Parser {
     advance();
     if (node.operation == Operation::table) {
       if (token_.kind != TokenKind::string) fail("the first argument of table is a file name in quotes");
-      node.file = token_.text;
+      node.table = token_.text;
       advance();
       expect(",");
     }
@@ -235,8 +254,6 @@ class Parser {
 };
 
 }  // namespace
-
-std::span<const FunctionInfo> functions() { return kFunctions; }
 
 const FunctionInfo* find_function(std::string_view name) {
   const auto found = std::ranges::find(kFunctions, name, &FunctionInfo::name);

@@ -51,7 +51,7 @@ void ProgramExpansionT<T>::decide_interval(const Step& step, Branch& branch, T x
     if (forced && *branch.forced_sign < 0.0) branch.lower -= 1.0;
     branch.upper = branch.lower + 1.0;
   } else {
-    const Table& table = *step.table;
+    const LookupTable& table = *step.table;
     int cell = table.find_cell(place);
     if (forced && *branch.forced_sign < 0.0 && place == table.cell(cell).begin) --cell;
     const bool inside =
@@ -146,8 +146,8 @@ void ProgramExpansionT<T>::run_branch(const Step& step, Branch& branch, int n) {
     case Opcode::table: {
       if (n == 0) decide_interval(step, branch, a[0]);
       // y = ((c3 s + c2) s + c1) s + c0 with s = x - begin: u = s, v = c3 s + c2, w = v s + c1
-      const Table& table = *step.table;
-      const Table::Cell& cell = table.cell(table.find_cell(branch.lower));
+      const LookupTable& table = *step.table;
+      const LookupTable::Cell& cell = table.cell(table.find_cell(branch.lower));
       T *v = step.own[1], *w = step.own[2];
       u[n] = n == 0 ? a[0] - branch.lower : a[n];
       v[n] = cell.c3 * u[n] + (n == 0 ? cell.c2 : 0.0);

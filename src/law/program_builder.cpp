@@ -1,7 +1,6 @@
 #include "trajet/law/program_builder.hpp"
 
 #include <cassert>
-#include <filesystem>
 #include <utility>
 
 #include "graph.hpp"
@@ -47,9 +46,9 @@ class Compiler {
     }
     return std::visit([&](const auto& m) { return bind(node, m); }, *meaning);
   }
-  Value bind(const SyntaxNode&, double value) { return scalar(graph_.constant(value)); }
-  Value bind(const SyntaxNode&, const Vector3& v) {
-    return {true, {graph_.constant(v.x()), graph_.constant(v.y()), graph_.constant(v.z())}};
+  Value bind(const SyntaxNode&, const ExtendedConstant& value) { return scalar(graph_.constant(value)); }
+  Value bind(const SyntaxNode&, const Symbols::ConstantVector& v) {
+    return {true, {graph_.constant(v[0]), graph_.constant(v[1]), graph_.constant(v[2])}};
   }
   Value bind(const SyntaxNode&, const Symbols::Scalar& s) { return scalar(s.node); }
   Value bind(const SyntaxNode&, const Symbols::Vector& v) { return {true, v.nodes}; }
@@ -259,12 +258,9 @@ class Compiler {
   }
 
   int table(const SyntaxNode& node, int x) {
-    const std::filesystem::path path = std::filesystem::path(node.where.file.str()).parent_path() / node.file;
-    try {
-      return graph_.table(path.string(), x);
-    } catch (const FileError& error) {
-      throw FileError(node.where, error.what());
-    }
+    const auto table = symbols_.find_table(node.table);
+    if (table == nullptr) fail(node, "there is no table '" + node.table + "' here");
+    return graph_.table(table, x);
   }
 
   static void require_vectors(const SyntaxNode& node, const std::vector<Value>& arguments) {
@@ -281,10 +277,18 @@ class Compiler {
   const Symbols& symbols_;
 };
 
+[[noreturn]] void fail_as_vector(const Expression& formula) {
+  constexpr std::size_t kLongest = 40;  // what one reads at a glance
+  const std::string component = formula.text().size() <= kLongest ? formula.text() : "…";
+  throw InputError(formula.where(),
+                   "a vector is expected, this is a scalar: write its direction too, [0, 0, " + component + "]");
+}
+
 }  // namespace
 }  // namespace detail
 
 ProgramBuilder::ProgramBuilder(int input_count) : graph_(std::make_unique<detail::Graph>(input_count)) {}
+ProgramBuilder::ProgramBuilder(const Program& base) : graph_(std::make_unique<detail::Graph>(base)) {}
 ProgramBuilder::~ProgramBuilder() = default;
 ProgramBuilder::ProgramBuilder(ProgramBuilder&&) noexcept = default;
 ProgramBuilder& ProgramBuilder::operator=(ProgramBuilder&&) noexcept = default;
@@ -301,11 +305,10 @@ ProgramBuilder::Value ProgramBuilder::compile_scalar(const Expression& formula, 
 
 ProgramBuilder::Value ProgramBuilder::compile_vector(const Expression& formula, const Symbols& symbols) {
   const Value value = compile(formula, symbols);
-  if (!value.is_vector) throw InputError(formula.where(), "a vector is expected, this is a scalar");
+  if (!value.is_vector) detail::fail_as_vector(formula);
   return value;
 }
 
-ProgramBuilder::Value ProgramBuilder::input(int index) const { return {false, {index, 0, 0}}; }
 ProgramBuilder::Value ProgramBuilder::inputs(const std::array<int, 3>& indices) const { return {true, indices}; }
 ProgramBuilder::Value ProgramBuilder::constant(double value) { return {false, {graph_->constant(value), 0, 0}}; }
 
@@ -316,7 +319,11 @@ ProgramBuilder::Value ProgramBuilder::divide(const Value& numerator, const Value
   return result;
 }
 
-int ProgramBuilder::constant_node(double value) { return graph_->constant(value); }
+int ProgramBuilder::constant_node(const ExtendedConstant& value) { return graph_->constant(value); }
+
+int ProgramBuilder::output_of_base(int index) const {
+  return graph_->reopened_outputs()[static_cast<std::size_t>(index)];
+}
 
 int ProgramBuilder::combine(Opcode opcode, int a, int b) {
   switch (opcode) {
@@ -333,7 +340,7 @@ int ProgramBuilder::combine(Opcode opcode, int a, int b) {
     case Opcode::sqrt:
       return graph_->sqrt(a);
     default:
-      return graph_->apply(opcode, a, b);
+      return detail::operand_count(opcode) > 1 ? graph_->apply(opcode, a, b) : graph_->apply(opcode, a);
   }
 }
 
@@ -343,26 +350,27 @@ void ProgramBuilder::add_output(const Value& value) {
 
 Program ProgramBuilder::build() const { return graph_->build(outputs_); }
 
-std::variant<double, Vector3> evaluate_constant(const Expression& formula, const Symbols& constants) {
+std::variant<ExtendedConstant, Symbols::ConstantVector> evaluate_constant(const Expression& formula,
+                                                                          const Symbols& constants) {
   detail::Graph graph(0);
   const ProgramBuilder::Value value = detail::Compiler(graph, constants).compile(formula.root());
   const auto number = [&](int i) { return graph.constant_value(value.nodes[static_cast<std::size_t>(i)]).value(); };
   if (!value.is_vector) return number(0);
-  return Vector3(number(0), number(1), number(2));
+  return Symbols::ConstantVector{number(0), number(1), number(2)};
 }
 
 double evaluate_scalar(const Expression& formula, const Symbols& constants) {
   const auto value = evaluate_constant(formula, constants);
-  if (!std::holds_alternative<double>(value))
-    throw InputError(formula.where(), "a scalar is expected, this is a vector");
-  return std::get<double>(value);
+  const auto* number = std::get_if<ExtendedConstant>(&value);
+  if (number == nullptr) throw InputError(formula.where(), "a scalar is expected, this is a vector");
+  return number->value;
 }
 
 Vector3 evaluate_vector(const Expression& formula, const Symbols& constants) {
   const auto value = evaluate_constant(formula, constants);
-  if (!std::holds_alternative<Vector3>(value))
-    throw InputError(formula.where(), "a vector is expected, this is a scalar");
-  return std::get<Vector3>(value);
+  const auto* vector = std::get_if<Symbols::ConstantVector>(&value);
+  if (vector == nullptr) detail::fail_as_vector(formula);
+  return {(*vector)[0].value, (*vector)[1].value, (*vector)[2].value};
 }
 
 }  // namespace trajet

@@ -96,7 +96,7 @@ void ProgramExpansionT<T>::reserve(int order) {
   if (order < stride_) return;
   stride_ = order + 1;
   rows_.assign(static_cast<std::size_t>(row_count_) * static_cast<std::size_t>(stride_), T(0.0));
-  for (const Program::Constant& constant : program_.constants) row(constant.slot)[0] = constant.value;
+  for (const Program::Constant& constant : program_.constants) row(constant.slot)[0] = constant.value.as<T>();
   place_rows();
 }
 
@@ -108,7 +108,7 @@ void ProgramExpansionT<T>::place_rows() {
     const Instruction& instruction = program_.instructions[i];
     const bool is_table = instruction.opcode == Opcode::table;  // whose b is no slot
     Step step{.opcode = instruction.opcode,
-              .constant = instruction.constant,
+              .constant = instruction.constant.as<T>(),
               .a = row(instruction.a),
               .b = is_table ? nullptr : row(instruction.b),
               .c = row(instruction.c),

@@ -1,11 +1,14 @@
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "trajet/error.hpp"
+#include "trajet/law/dimension.hpp"
+#include "trajet/math/extended_constant.hpp"
 
 namespace trajet::detail {
 
@@ -63,10 +66,11 @@ struct SyntaxNode {
 
   Kind kind = Kind::number;
   SourceLocation where;                     ///< of the token that makes it: number, name, `[`, operator, function name
-  double value = 0.0;                       ///< number
+  ExtendedConstant value{};                 ///< number, in SI units
+  std::optional<Dimension> dimension{};     ///< of a number that was written with a unit
   Operation operation = Operation::negate;  ///< operation
   std::string text;                         ///< name, or the operator or function as written
-  std::string file;                         ///< operation `table`: the file as written
+  std::string table;                        ///< operation `table`: its name as written
   std::vector<SyntaxNode> children;
   int height = 1;  ///< levels of the tree below and including this node
 };
@@ -85,9 +89,6 @@ struct FunctionInfo {
   int min_arguments;
   int max_arguments;
 };
-
-/// Every function, in the order of the documentation.
-std::span<const FunctionInfo> functions();
 
 /// The function of that name, or nullptr.
 const FunctionInfo* find_function(std::string_view name);

@@ -105,6 +105,11 @@ MethodInfo multistep(std::string_view name, Aliases aliases, std::string_view kn
 }
 #endif
 
+MethodInfo extended(MethodInfo method) {
+  method.carries_extended = true;
+  return method;
+}
+
 /// A line of the table of any family.
 MethodInfo row(std::string_view name, Aliases aliases, int order, int dense_order, StepControl control,
                std::string_view known_as, std::string_view summary, decltype(MethodInfo::make) make, int max_order = 0,
@@ -130,8 +135,9 @@ std::span<const MethodInfo> methods() {
           "exact derivatives; [method] order", make_series, SeriesStepper<SystemExpansion<>>::kMaxOrder),
       row("taylor", {}, 0, 0, StepControl::adaptive, "notes: Taylor series",
           "exact derivatives; order chosen from the tolerance", make_taylor<double>, kMaxTaylorOrder),
-      row("taylor-extended", {}, 0, 0, StepControl::adaptive, "",
-          "taylor in extended precision: for motions that amplify rounding", make_taylor<long double>, kMaxTaylorOrder),
+      extended(row("taylor-extended", {}, 0, 0, StepControl::adaptive, "",
+                   "taylor in extended precision: for motions that amplify rounding", make_taylor<long double>,
+                   kMaxTaylorOrder)),
       gauss("gauss6", {}, "", "Gauss collocation, symplectic: long runs keep their energy"),
 #ifdef TRAJET_WITH_SUNDIALS
       multistep<MultistepFormula::adams>("adams", {"ode113"}, "MATLAB: ode113",

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <concepts>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -34,6 +35,20 @@ class WrappedStepper final : public AnyStepper {
     } else {
       return false;
     }
+  }
+  bool is_extended() const override {
+    return requires { stepper_.extended_state(0.0L); };
+  }
+  void start_extended(double t, const ExtendedState& q) override {
+    if constexpr (requires { stepper_.start_extended(t, q); }) {
+      stepper_.start_extended(t, q);
+    } else {
+      AnyStepper::start_extended(t, q);
+    }
+  }
+  std::optional<ExtendedState> extended_state(long double tau) const override {
+    if constexpr (requires { stepper_.extended_state(tau); }) return stepper_.extended_state(tau);
+    return std::nullopt;
   }
   std::vector<std::string> warnings() const override {
     if constexpr (requires { stepper_.warnings(); }) return stepper_.warnings();

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+
 #include "scene_numbers.hpp"
 #include "trajet/law/program_builder.hpp"
 #include "trajet/scene/world.hpp"
@@ -25,6 +27,9 @@ void add_rotation_symbols(Symbols& symbols, const std::string& prefix, const Wor
 /// laws.
 void add_rotation_law(const BodyDefinition& definition, const World::Body& body, const Symbols& own,
                       ProgramBuilder& law);
+
+/// Appends the four parts w, x, y, z of the unit quaternion of roll, pitch and yaw (rad).
+void add_quaternion(const std::array<ProgramBuilder::Value, 3>& roll_pitch_yaw, ProgramBuilder& builder);
 
 /// A vector in the world's frame, written in that in which the state holds the body's angular velocity.
 ProgramBuilder::Value in_frame_of_state(const ProgramBuilder::Value& vector_W, const World::Body& body,

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "trajet/law/program_builder.hpp"
+#include "trajet/math/euler_angles.hpp"
 #include "trajet/math/quaternion.hpp"
 #include "trajet/text/shortest_text.hpp"
 
@@ -63,9 +64,15 @@ Quaternion SceneNumbers::orientation(const OrientationDefinition& orientation, c
                                                           "vectors, right-handed");
     return from_rotation_matrix(nearest_rotation(R));
   }
-  if (orientation.axis || orientation.angle_rad || !orientation.quaternion.empty() || !orientation.matrix.empty())
+  if (orientation.roll_pitch_yaw.size() == 3) {
+    Vector3 angles_rad;
+    for (int i = 0; i < 3; ++i) angles_rad[i] = scalar(orientation.roll_pitch_yaw[static_cast<std::size_t>(i)], what);
+    return from_euler_angles(angles_rad, kRollPitchYaw).normalized();
+  }
+  if (orientation.axis || orientation.angle_rad || !orientation.quaternion.empty() || !orientation.matrix.empty() ||
+      !orientation.roll_pitch_yaw.empty())
     throw InputError(orientation.where,
-                     what + " is incomplete: an axis and an angle, four numbers, or three rows expected");
+                     what + " is incomplete: an axis and an angle, four numbers, three rows, or three angles expected");
   return Quaternion::Identity();
 }
 

@@ -1,5 +1,6 @@
 #include "scene_symbols.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <string_view>
@@ -36,8 +37,10 @@ class ParameterEvaluation {
 
   void define(const NamedExpression& parameter) {
     const auto value = evaluate_constant(parameter.value, symbols_);
-    const bool finite = std::holds_alternative<double>(value) ? std::isfinite(std::get<double>(value))
-                                                              : std::get<Vector3>(value).allFinite();
+    const auto is_finite = [](const ExtendedConstant& number) { return std::isfinite(number.value); };
+    const auto* vector = std::get_if<Symbols::ConstantVector>(&value);
+    const bool finite =
+        vector == nullptr ? is_finite(std::get<ExtendedConstant>(value)) : std::ranges::all_of(*vector, is_finite);
     if (!finite) throw InputError(parameter.value.where(), "parameter '" + parameter.name + "' is not a finite number");
     std::visit([&](const auto& number) { symbols_.set_constant(parameter.name, number); }, value);
   }
@@ -69,16 +72,17 @@ const BodyPart* find_body_part(std::string_view name) {
 
 ParameterSet evaluate_parameters(const Scene& scene) {
   ParameterSet set;
+  for (const auto& [name, table] : scene.tables) set.symbols.set_table(name, table);
   forbid_time_dependent_names(scene, set.symbols);
   ParameterEvaluation evaluation(scene, set.symbols);
   for (const NamedExpression& parameter : scene.parameters) evaluation.evaluate(parameter);
   for (const NamedExpression& parameter : scene.parameters) {
     const Symbols::Meaning& meaning = *set.symbols.find(parameter.name);
-    if (const double* number = std::get_if<double>(&meaning)) {
-      set.values.push_back({parameter.name, *number});
+    if (const auto* number = std::get_if<ExtendedConstant>(&meaning)) {
+      set.values.push_back({parameter.name, number->value});
     } else {
-      const auto& vector = std::get<Vector3>(meaning);
-      for (int i = 0; i < 3; ++i) set.values.push_back({parameter.name + "." + "xyz"[i], vector[i]});
+      const auto& vector = std::get<Symbols::ConstantVector>(meaning);
+      for (std::size_t i = 0; i < 3; ++i) set.values.push_back({parameter.name + "." + "xyz"[i], vector[i].value});
     }
   }
   return set;

@@ -25,8 +25,8 @@ inline constexpr const char* kRotationNames[] = {"w",   "wx",  "wy",  "wz",  "w_
 /// The body part of that name, or nullptr.
 const BodyPart* find_body_part(std::string_view name);
 
-/// The parameters of a scene, evaluated whatever the order in which they refer to each other, and the names that they
-/// must not use. Throws InputError: a circle, an unknown name, a value that is not finite.
+/// The tables and the parameters of a scene, evaluated whatever the order in which they refer to each other, and the
+/// names that they must not use. Throws InputError: a circle, an unknown name, a value that is not finite.
 struct ParameterSet {
   Symbols symbols;
   std::vector<NamedValue> values;

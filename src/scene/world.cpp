@@ -1,6 +1,7 @@
 #include "trajet/scene/world.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -9,6 +10,9 @@
 #include <unordered_map>
 
 #include "body_maker.hpp"
+#include "extended_numbers.hpp"
+#include "law_formulas.hpp"
+#include "law_symbols.hpp"
 #include "partition.hpp"
 #include "scene_method.hpp"
 #include "scene_numbers.hpp"
@@ -17,6 +21,7 @@
 #include "start_check.hpp"
 #include "trajet/law/evaluate.hpp"
 #include "trajet/law/program_builder.hpp"
+#include "trajet/scene/scene_units.hpp"
 
 namespace trajet {
 namespace {
@@ -37,14 +42,16 @@ class WorldBuilder {
     world_.scene = scene_.file;
     world_.title = scene_.title;
     world_.parameters = parameters_.values;
+    world_.tables = scene_.tables;
+    world_.warnings = scene_.warnings;
     check_names();
     set_time();
     set_method(scene_.method, numbers_, world_);
     world_.obstacles.reserve(scene_.obstacles.size());
     for (const ObstacleDefinition& obstacle : scene_.obstacles) {
       world_.obstacles.push_back(make_obstacle(obstacle, numbers_));
-      world_.obstacles.back().color = obstacle.color;
       world_.obstacles.back().restitution = restitution_of(obstacle);
+      world_.obstacles.back().color = obstacle.color;
     }
     find_dependencies();
     place_in_groups();
@@ -55,6 +62,8 @@ class WorldBuilder {
     for (const NamedExpression& closed_form : scene_.exact) compile_exact(closed_form);
     for (const ExactOrientation& closed_form : scene_.exact_orientations) compile_exact_orientation(closed_form);
     for (const World::ClosedRotation& closed_form : world_.exact_rotations) check_exact_rotation(closed_form);
+    check_units(scene_);
+    if (world_.method->carries_extended) world_.extended = extended_numbers(scene_, world_, parameters_.symbols);
     return std::move(world_);
   }
 
@@ -191,18 +200,8 @@ class WorldBuilder {
     }
   }
 
-  /// What laws, rates and events of a group may use: time, and all that moves in the group.
   Symbols group_symbols(int index, ProgramBuilder& builder) const {
-    Symbols symbols(&parameters_.symbols);
-    symbols.set_input("t", 0);
-    for (const int b : world_.groups[static_cast<std::size_t>(index)].bodies) {
-      const World::Body& body = world_.bodies[static_cast<std::size_t>(b)];
-      add_body_symbols(symbols, body.name + ".", 1 + body.offset);
-      add_rotation_symbols(symbols, body.name + ".", body, builder);
-    }
-    for (const World::ExtraState& state : world_.states)
-      if (state.group == index) symbols.set_input(state.name, 1 + state.offset);
-    return symbols;
+    return trajet::group_symbols(world_, index, parameters_.symbols, builder);
   }
 
   void compile_group(int index) {
@@ -211,26 +210,22 @@ class WorldBuilder {
     ProgramBuilder law(input_count);
     const Symbols symbols = group_symbols(index, law);
     for (const int b : target.bodies) compile_body(b, symbols, law);
-    for (std::size_t i = 0; i < scene_.states.size(); ++i)
-      if (world_.states[i].group == index) law.add_output(law.compile_scalar(scene_.states[i].rate, symbols));
+    for (std::size_t i = 0; i < scene_.states.size(); ++i) {
+      if (world_.states[i].group != index) continue;
+      law.add_output(law.compile_scalar(scene_.states[i].rate, symbols));
+      target.formulas.push_back({"rate", -1, world_.states[i].offset, 1, scene_.states[i].rate});
+    }
     target.law = law.build();
     for (const int b : target.bodies) compile_mass(b, input_count);
     for (const int e : target.events) compile_event(e, input_count);
-  }
-
-  /// The names of a body's own laws.
-  static Symbols own_symbols(const Symbols& group_scope, const World::Body& body, ProgramBuilder& builder) {
-    Symbols own(&group_scope);
-    add_body_symbols(own, "", 1 + body.offset);
-    add_rotation_symbols(own, "", body, builder);
-    return own;
   }
 
   void compile_body(int index, const Symbols& group_scope, ProgramBuilder& law) {
     const BodyDefinition& definition = scene_.bodies[static_cast<std::size_t>(index)];
     const World::Body& body = world_.bodies[static_cast<std::size_t>(index)];
     const int velocity = 1 + body.slice().velocity_index();
-    const Symbols own = own_symbols(group_scope, body, law);
+    const Symbols own = own_symbols(body, group_scope, law);
+    add_formulas(definition, body, index, group(body.group).formulas);
 
     law.add_output(definition.position_rate ? law.compile_vector(*definition.position_rate, own)
                                             : law.inputs({velocity, velocity + 1, velocity + 2}));
@@ -259,7 +254,7 @@ class WorldBuilder {
     if (!definition.mass && !definition.density) return;
     ProgramBuilder mass(input_count);
     const Symbols symbols = group_symbols(body.group, mass);
-    mass.add_output(mass_of(definition, own_symbols(symbols, body, mass), mass));
+    mass.add_output(mass_of(definition, own_symbols(body, symbols, mass), mass));
     body.mass = mass.build();
   }
 
@@ -343,6 +338,11 @@ class WorldBuilder {
     if (given.angle_rad) value.add_output(value.compile_scalar(*given.angle_rad, symbols));
     for (const Expression& part : given.quaternion) value.add_output(value.compile_scalar(part, symbols));
     for (const Expression& row : given.matrix) value.add_output(value.compile_vector(row, symbols));
+    if (given.roll_pitch_yaw.size() == 3) {
+      std::array<ProgramBuilder::Value, 3> angles;
+      for (std::size_t i = 0; i < 3; ++i) angles[i] = value.compile_scalar(given.roll_pitch_yaw[i], symbols);
+      add_quaternion(angles, value);
+    }
     auto& orientation = exact_rotation(closed_form.name, closed_form.where).orientation;
     if (orientation) throw InputError(closed_form.where, "[exact] has '" + closed_form.name + "' twice");
     const Form form = given.axis ? Form::axis_angle : given.matrix.empty() ? Form::quaternion : Form::matrix;

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "instant.hpp"
+#include "trajet/math/polynomial.hpp"
 #include "trajet/sim/state_at.hpp"
 
 namespace trajet {
@@ -22,7 +23,7 @@ Course::Course(const World& world, int group)
       free_system_(std::make_unique<ProgramSystem>(this->group().law)),
       orientations_(world, group),
       closed_rotations_(world, group),
-      error_(static_cast<int>(this->group().start.size())) {
+      error_(static_cast<int>(this->group().start.size()), world.method->carries_extended ? 0x1p-64 : kUnitRoundoff) {
   for (const int event : this->group().events) {
     const World::Event& definition = world.events[static_cast<std::size_t>(event)];
     watches_.push_back({Crossing::Kind::event, event, EventWatch(definition.when, definition.direction)});
@@ -66,11 +67,20 @@ void Course::use_contacts() {
   stepper_ = world_.method->make(held_system_ ? *held_system_ : *free_system_, options);
 }
 
-void Course::begin(double t, const Eigen::VectorXd& q, const Eigen::VectorXd* before) {
+void Course::begin(double t, const Eigen::VectorXd& q, const Instant* instant) {
+  const Eigen::VectorXd* before = instant != nullptr ? &instant->before() : nullptr;
   end_state_ = q;
   orientations_.begin(end_state_, before);
   closed_rotations_.begin(t, end_state_, before);
-  stepper_->start(t, end_state_);
+  if (const auto extended = instant != nullptr ? instant->extended() : std::nullopt) {
+    // orientations were put right in double precision
+    const auto is_right = (extended->cast<double>().array() == end_state_.array());
+    stepper_->start_extended(t, is_right.select(*extended, end_state_.cast<long double>()));
+  } else if (instant == nullptr && world_.extended) {
+    stepper_->start_extended(t, world_.extended->starts[static_cast<std::size_t>(group_)]);
+  } else {
+    stepper_->start(t, end_state_);
+  }
   rest_of_step_.clear();
   handed_on_ = t;
   begins_anew_ = true;
@@ -79,6 +89,11 @@ void Course::begin(double t, const Eigen::VectorXd& q, const Eigen::VectorXd* be
   segment_.coefficients().col(0) = end_state_;
   segment_.error_bound().setZero();
   next_ = {t};
+}
+
+std::optional<Eigen::VectorX<long double>> Course::extended_state(long double tau) const {
+  const bool is_step = segment_.duration() != 0.0 && segment_.t1() == stepper_->time() && rest_of_step_.empty();
+  return is_step ? stepper_->extended_state(tau) : std::nullopt;
 }
 
 std::optional<MotionPiece> Course::hand_on(double t) {
@@ -99,7 +114,7 @@ void Course::restart(const Instant& instant) {
     use_contacts();
   }
   for (Watch& watch : watches_) watch.watch.restart(t, instant.before().data(), instant.q.data());
-  begin(t, instant.q, &instant.before());
+  begin(t, instant.q, &instant);
 }
 
 StepStatus Course::advance() {

@@ -65,6 +65,11 @@ class Course {
   const std::vector<RestingContact>& contacts() const { return contacts_; }
   /// The state at a time on the current Segment.
   Eigen::VectorXd state(double t) const;
+  /// Whether the state is carried in extended precision.
+  bool is_extended() const { return stepper_->is_extended(); }
+  /// The state `tau` (s) behind the start of the current Segment, which is a step of the method, in that precision;
+  /// none where it is known in double precision only.
+  std::optional<Eigen::VectorX<long double>> extended_state(long double tau) const;
   /// The law in a state: dq/dt, without and with the forces of lasting contacts.
   Eigen::VectorXd free_rate(double t, const Eigen::VectorXd& q) const;
   Eigen::VectorXd rate(double t, const Eigen::VectorXd& q) const;
@@ -89,8 +94,8 @@ class Course {
   const System& law() const { return held_system_ ? *held_system_ : *free_system_; }
   /// The law with the present lasting contacts, a stepper for it, and watches for the contacts' ends.
   void use_contacts();
-  /// `before`: the state in which the course came here; null at the start.
-  void begin(double t, const Eigen::VectorXd& q, const Eigen::VectorXd* before);
+  /// `instant`: at which the course goes on; null at the start.
+  void begin(double t, const Eigen::VectorXd& q, const Instant* instant);
   /// Puts orientations right where a step has ended, on the Segment too.
   void put_orientations_right();
   /// Replaces the stepper's state by one that means the same.

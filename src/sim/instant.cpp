@@ -8,7 +8,25 @@ Instant::Instant(const Course& course, double time)
       derivative(Eigen::MatrixXd::Identity(q.size(), q.size())),
       course_(course),
       time_(time),
-      before_(q) {}
+      before_(q) {
+  if (course.is_extended())
+    extended_ = course.extended_state(static_cast<long double>(time) - static_cast<long double>(course.segment().t0()));
+}
+
+void Instant::set_extended(int first, const Vector3T<long double>& part) {
+  if (!extended_) return;
+  extended_->segment<3>(first) = part;
+  q.segment<3>(first) = part.cast<double>();
+}
+
+std::optional<Eigen::VectorX<long double>> Instant::extended() const {
+  if (!extended_) return std::nullopt;
+  // what has changed since is known in double precision only
+  Eigen::VectorX<long double> all = q.cast<long double>();
+  for (Eigen::Index i = 0; i < q.size(); ++i)
+    if (static_cast<double>((*extended_)[i]) == q[i]) all[i] = (*extended_)[i];
+  return all;
+}
 
 Eigen::VectorXd Instant::rate() const {
   Eigen::VectorXd rate = course_.free_rate(time_, q);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -37,6 +38,13 @@ class Instant {
   /// The derivative of `q` by `before`, at one time: what an error of the state becomes.  // (state x state)
   Eigen::MatrixXd derivative;
 
+  /// Where the course carries its state in extended precision: three components of the new state, from `first` on, with
+  /// all their digits. `q` takes them rounded.
+  void set_extended(int first, const Vector3T<long double>& part);
+  /// `q` with the digits behind double precision that are known of it, if there are any: of what was set so, and of
+  /// what is as it was before.
+  std::optional<Eigen::VectorX<long double>> extended() const;
+
   /// dq/dt in state `q`, the forces of `contacts` included.
   Eigen::VectorXd rate() const;
   /// The acceleration in state `q` of the body at `offset` that the law alone gives it, m/s^2.
@@ -50,6 +58,7 @@ class Instant {
   const Course& course_;
   double time_;
   Eigen::VectorXd before_;
+  std::optional<Eigen::VectorX<long double>> extended_;  // as it was before, or as it was set
 };
 
 }  // namespace trajet

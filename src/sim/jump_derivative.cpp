@@ -2,7 +2,7 @@
 
 #include <variant>
 
-#include "trajet/collide/sustain/resting_contact.hpp"
+#include "trajet/geom/closest_point.hpp"
 #include "trajet/geom/distance.hpp"
 #include "trajet/geom/flat_faces.hpp"
 #include "trajet/law/program_jacobian.hpp"
@@ -16,8 +16,9 @@ Vector3 normal_at(const Shape& shape, const Vector3& position, const Vector3& no
 }
 
 /// The derivative of a shape's normal by the position of the centre of a ball that touches it, 1/m.
-Matrix3 curvature(const Shape& shape, const Vector3& position, const Vector3& normal, double radius) {
-  if (is_flat_at(shape, position - radius * normal, normal)) return Matrix3::Zero();
+Matrix3 curvature(const Shape& shape, const Vector3& point, const Vector3& position, const Vector3& normal,
+                  double radius) {
+  if (is_flat_at(shape, point, normal)) return Matrix3::Zero();
   // A point on the surface itself has no direction to it: one a little above has. Differences over a step of a
   // thousandth of that height keep half of the digits, and more are not needed of an error.
   const double height = radius > 0.0 ? radius : 1e-4 * (1.0 + position.norm());
@@ -45,7 +46,8 @@ Eigen::MatrixXd derivative_of_bounce(const World& world, const Pair& pair, const
 
   // v+ = v - (1 + e) (r' . n) n, r' moving as v does
   const double factor = 1.0 + obstacle.restitution;
-  const Matrix3 N = curvature(obstacle.shape, instant.before().segment<3>(body.offset), n, bounding_radius(body.solid));
+  const Matrix3 N = curvature(obstacle.shape, pair.contact.point, instant.before().segment<3>(body.offset), n,
+                              bounding_radius(body.solid));
   derivative.block<3, 3>(body.offset + 3, body.offset) = -factor * (n * (approach.transpose() * N) + speed * N);
   derivative.block<3, 3>(body.offset + 3, body.offset + 3) = Matrix3::Identity() - factor * n * n.transpose();
   Eigen::RowVectorXd time = Eigen::RowVectorXd::Zero(rate.size());

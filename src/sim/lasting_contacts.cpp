@@ -5,6 +5,7 @@
 
 #include "impact_record.hpp"
 #include "trajet/collide/sustain/rest.hpp"
+#include "trajet/geom/closest_point.hpp"
 #include "trajet/geom/distance.hpp"
 #include "trajet/geom/flat_faces.hpp"
 

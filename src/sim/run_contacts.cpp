@@ -1,5 +1,6 @@
 #include <cmath>
 
+#include "extended_bounce.hpp"
 #include "impact_record.hpp"
 #include "jump_derivative.hpp"
 #include "run_loop.hpp"
@@ -95,6 +96,7 @@ void RunLoop::bounce(int index, Pair pair, Impact impact) {
   // the velocity of the centre is dr/dt, which a position_rate may set apart from v
   const Vector3 approach = instant.rate().segment<3>(body.offset);
   velocity += rebound(approach, impact.normal, obstacle_of(pair).restitution).impulse_per_mass;
+  if (world_.extended && approach == Vector3(impact.velocity_before)) bounce_extended(world_, pair, instant);
   instant.derivative = derivative_of_bounce(world_, pair, instant, moving.rate(t, instant.before()));
   impact.velocity_after = velocity;
   impact.impulse = mass_of(body, t, instant.q) * (impact.velocity_after - impact.velocity_before);

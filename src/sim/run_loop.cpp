@@ -6,20 +6,14 @@
 #include "jump_derivative.hpp"
 #include "ties.hpp"
 #include "trajet/law/evaluate.hpp"
+#include "trajet/scene/describe_failure.hpp"
 
 namespace trajet {
 namespace {
 
-std::string failure_text(StepStatus status) {
-  switch (status) {
-    case StepStatus::step_too_small:
-      return "the tolerance cannot be met: the step became too small";
-    case StepStatus::not_finite:
-      return "the law is not finite";
-    case StepStatus::ok:
-      break;
-  }
-  return {};
+std::string status_text(StepStatus status) {
+  return status == StepStatus::not_finite ? "the law is not finite"
+                                          : "the tolerance cannot be met: the step became too small";
 }
 
 Recorder::Courses make_courses(const World& world) {
@@ -99,8 +93,24 @@ bool RunLoop::step() {
       }
     }
   }
-  running_ = running_ && !agenda_.empty();
+  if (running_ && agenda_.empty()) {
+    fail_if_blown_up();
+    running_ = false;
+  }
   return running_;
+}
+
+void RunLoop::fail_if_blown_up() {
+  const double t = recorder_.end_time();
+  for (std::size_t g = 0; g < courses_.size(); ++g) {
+    const Eigen::VectorXd q = courses_[g]->state(t);
+    // a state that doubles in so small a part of the run may be on its way to infinity
+    constexpr double kNoTime = 1e-6;
+    const double elapsed = std::abs(t - world_.start);
+    if (!(q.cwiseAbs().array() < kNoTime * elapsed * courses_[g]->rate(t, q).cwiseAbs().array()).any()) continue;
+    const std::string reason = describe_blow_up(world_, static_cast<int>(g), t, q);
+    if (!reason.empty()) return fail(t, reason);
+  }
 }
 
 void RunLoop::enqueue(int index) { agenda_.add(direction_ * (next(index).time - world_.start), index); }
@@ -111,8 +121,11 @@ void RunLoop::advance(int index) {
     return fail(recorder_.end_time(), "more than max_steps = " + std::to_string(world_.max_steps) + " steps");
   recorder_.motion(moving, moving.segment().t1());
   for (const int body : moving.group().bodies) encounters_.keep(body, moving, moving.segment().t1());
-  if (const StepStatus status = moving.advance(); status != StepStatus::ok)
-    return fail(recorder_.end_time(), failure_text(status));
+  if (const StepStatus status = moving.advance(); status != StepStatus::ok) {
+    const double t = recorder_.end_time();
+    const std::string reason = describe_failure(world_, index, t, moving.state(t));
+    return fail(t, status_text(status) + (reason.empty() ? "" : ": ") + reason);
+  }
   double until = moving.next().time;
   for (const int body : moving.group().bodies) {
     encounters_.follow(body, moving, until);

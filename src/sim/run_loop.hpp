@@ -52,6 +52,8 @@ class RunLoop {
   bool rest(Instant& instant, const Pair& pair, const Impact& impact, bool is_hidden);
 
   void stop();
+  /// A motion whose state runs to infinity just at the end of the run has none there.
+  void fail_if_blown_up();
   void fail(double time, const std::string& reason);
   void interrupt(double time);
 

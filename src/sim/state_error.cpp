@@ -5,8 +5,6 @@
 #include <numeric>
 #include <unsupported/Eigen/MatrixFunctions>
 
-#include "trajet/math/polynomial.hpp"
-
 namespace trajet {
 namespace {
 
@@ -22,13 +20,13 @@ Eigen::MatrixXd jacobian(const System& law, double t, const Eigen::VectorXd& q) 
 
 }  // namespace
 
-StateError::StateError(int dimension) : generators_(dimension, 0) {}
+StateError::StateError(int dimension, double roundoff) : roundoff_(roundoff), generators_(dimension, 0) {}
 
-StateError::Step StateError::step_until(const System& law, const Segment<>& segment, double t) {
+StateError::Step StateError::step_until(const System& law, const Segment<>& segment, double t) const {
   Step step{&law, segment.t0(), t - segment.t0(), segment.coefficients().col(0), {}, {}, segment.error_bound()};
   step.in_middle = segment.state(segment.t0() + 0.5 * step.duration);
   step.at_end = segment.state(t);
-  step.error += kUnitRoundoff * step.at_end.cwiseAbs();
+  step.error += roundoff_ * step.at_end.cwiseAbs();
   return step;
 }
 

@@ -19,7 +19,8 @@ namespace trajet {
 /// Steps are kept and worked off where somebody asks.
 class StateError {
  public:
-  explicit StateError(int dimension);
+  /// `roundoff`: of the precision in which the state is carried.
+  StateError(int dimension, double roundoff);
 
   /// The motion under the law goes on behind time t on the Segment.
   void pass(const System& law, const Segment<>& segment, double t);
@@ -42,11 +43,12 @@ class StateError {
     Eigen::VectorXd error;  // that it adds
   };
 
-  static Step step_until(const System& law, const Segment<>& segment, double t);
+  Step step_until(const System& law, const Segment<>& segment, double t) const;
   static Eigen::MatrixXd transition(const Step& step);
   void add(const Eigen::VectorXd& error);
   void reduce();
 
+  double roundoff_;
   Eigen::MatrixXd generators_;  // (dimension x any number)
   std::vector<Step> open_;      // that are yet to be worked off
 };

@@ -51,6 +51,7 @@ class ComparisonRun {
     result_.start_time = base_.start;
     result_.end_time = base_.end;
     result_.parameters = base_.parameters;
+    result_.warnings = base_.warnings;
     for (const World::Body& body : base_.bodies) result_.turns = result_.turns || body.rotation;
     const std::vector<Way> ways = lay_out();
     find_reference();

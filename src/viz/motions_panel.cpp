@@ -81,7 +81,7 @@ void MotionsPanel::choose_components() {
   double size = 0.0;
   for (std::size_t b = 0; b < world_.bodies.size(); ++b) {
     const World::Body& body = world_.bodies[b];
-    owners_.push_back({body.group, body.offset, b});
+    owners_.push_back({body.group, body.slice().position_index(), b});
     for (const auto& state : reference_states(body.group).values)
       for (int i = 0; i < 3; ++i) {
         const double coordinate = position(state, body.slice().position_index())[i];
@@ -135,7 +135,7 @@ double MotionsPanel::closed_form_end(double until) const {
   const auto is_behind_a_plane = [&](double t) {
     for (const World::Body& body : world_.bodies) {
       comparison_.reference->state(body.group, t, q);
-      const Vector3 position = q.segment<3>(body.offset);
+      const Vector3 position = body.slice().position(q);
       for (const World::Obstacle& obstacle : world_.obstacles)
         if (const auto* plane = std::get_if<Plane>(&obstacle.shape);
             plane != nullptr && obstacle.on_hit != OnHit::pass &&

@@ -40,7 +40,7 @@ std::string page_unavailable() {
 }
 
 std::string page_html(const std::vector<PageRun>& runs, const PageOptions& options) {
-  Json data = {{"runs", Json::array()}};
+  Json data = {{"scene_text", options.scene_text}, {"runs", Json::array()}};
   for (const PageRun& run : runs) data["runs"].push_back(detail::page_data(run));
   return fill_template(std::move(data), options);
 }

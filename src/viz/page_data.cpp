@@ -99,7 +99,7 @@ std::string packed(const std::vector<MotionRecord::Piece>& pieces) {
 /// What a program's output is worth where its formula needs neither time nor state.
 std::optional<double> constant_output(const Program& program, int output) {
   for (const Program::Constant& constant : program.constants)
-    if (constant.slot == program.outputs[static_cast<std::size_t>(output)]) return constant.value;
+    if (constant.slot == program.outputs[static_cast<std::size_t>(output)]) return constant.value.value;
   return std::nullopt;
 }
 

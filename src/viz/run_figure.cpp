@@ -56,8 +56,8 @@ std::vector<Quantity> quantities_of(const World::Body& body, const Curve& curve)
   const double duration = curve.times.empty() ? 0.0 : std::abs(curve.times.back() - curve.times.front());
   const BodySlice slice = body.slice();
   const double position = largest(curve, false, slice.position_index()) + detail::look(body).radius();
-  const double velocity = largest(curve, false, slice.velocity_index()),
-               acceleration = largest(curve, true, slice.velocity_index());
+  const double velocity = largest(curve, false, slice.velocity_index());
+  const double acceleration = largest(curve, true, slice.velocity_index());
   const bool moves = velocity * duration > kRounding * position;
   const bool accelerates =
       acceleration * duration > kRounding * std::max(velocity, position / std::max(duration, 1e-300));

@@ -1,3 +1,4 @@
+#include "trajet/geom/closest_point.hpp"
 #include "trajet/geom/distance.hpp"
 
 #include <gtest/gtest.h>

@@ -6,9 +6,9 @@
 #include <limits>
 #include <vector>
 
+#include "trajet/law/lookup_table.hpp"
 #include "trajet/law/program_builder.hpp"
 #include "trajet/law/program_jacobian.hpp"
-#include "trajet/law/table.hpp"
 #include "trajet/math/series.hpp"
 #include "trajet/ode/differentiable_law.hpp"
 
@@ -97,7 +97,7 @@ TEST(ProgramJacobian, AgreesWithSeriesInEveryDirectionForEveryOperation) {
 }
 
 TEST(Dual, GoesThroughTables) {
-  const Table table({0.0, 1.0, 2.0, 4.0}, {0.0, 1.0, 3.0, 4.0});
+  const LookupTable table({0.0, 1.0, 2.0, 4.0}, {0.0, 1.0, 3.0, 4.0});
   for (const double x : {0.3, 1.0, 1.6, 3.9}) {
     const D y = table(D::variable(x, 1));
     EXPECT_EQ(y.value(), table(x));

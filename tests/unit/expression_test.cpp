@@ -173,6 +173,14 @@ TEST(Expression, errors_point_at_the_token) {
       {"where(1, v, 2)", 1, "a vector and a scalar"},
       {"a.b", 1, "unknown name 'a.b'"},
       {"1..2", 3, "an operator is expected"},
+      // what other notations have
+      {"ln(a)", 1, "write log(x)"},
+      {"if(a > b, a, b)", 1, "write where(c, a, b)"},
+      {"a > b ? a : b", 7, "write where(c, a, b)"},
+      {"|a - b|", 1, "write abs(x), of a vector norm(v)"},
+      {"a + v[0]", 6, "vx, vy, vz of v"},
+      {"[0, 0, v[2]]", 9, "vx, vy, vz of v"},
+      {"sin(30°)", 7, "radians"},
   };
   for (const ErrorCase& c : cases) {
     try {
@@ -185,6 +193,30 @@ TEST(Expression, errors_point_at_the_token) {
       EXPECT_NE(error.message().find(c.words), std::string::npos) << c.text << ": " << error.what();
     }
   }
+}
+
+TEST(Expression, a_scalar_where_a_vector_is_expected_says_what_to_write) {
+  try {
+    vector("-a");
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_EQ(error.message(), "a vector is expected, this is a scalar: write its direction too, [0, 0, -a]");
+  }
+}
+
+TEST(Expression, constants_fold_in_extended_precision) {
+  const auto constant = [](const char* text) {
+    return std::get<ExtendedConstant>(evaluate_constant(text, some_symbols())).as<long double>();
+  };
+  EXPECT_EQ(constant("8/3"), 8.0L / 3.0L);
+  EXPECT_EQ(constant("0.1"), 0.1L);
+  EXPECT_EQ(constant("sqrt(2)*0.7"), std::sqrt(2.0L) * 0.7L);
+  EXPECT_EQ(constant("2^0.3"), std::pow(2.0L, 0.3L));
+  EXPECT_EQ(constant("8/3 - 8/3"), 0.0L);
+  // what chooses does as it does in double precision: there 3*0.1 is more than 0.3
+  EXPECT_EQ(constant("3*0.1 > 0.3"), 1.0L);
+  EXPECT_EQ(constant("floor(0.3/0.1)"), 2.0L);
+  EXPECT_EQ(evaluate_scalar("0.1 + 0.2", some_symbols()), 0.1 + 0.2);
 }
 
 TEST(Expression, lines_of_a_long_formula_are_counted) {

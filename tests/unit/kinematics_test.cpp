@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "trajet/law/evaluate.hpp"
-#include "trajet/law/term.hpp"
+#include "trajet/law/program_number.hpp"
 #include "trajet/rigid/free_invariants.hpp"
 #include "trajet/rigid/orientation.hpp"
 
@@ -99,7 +99,7 @@ TEST(OrientationLayout, SettlingKeepsTheRotation) {
   EXPECT_EQ(find_orientation_way("no such way"), nullptr);
 }
 
-TEST(Term, ALawOnTermsIsTheLawOnNumbers) {
+TEST(ProgramNumber, ALawOnThemIsTheLawOnNumbers) {
   const OrientationLayout layout{OrientationWay::rotation_vector, Frame::body};
   const Matrix3 inertia = Vector3(1, 2, 2.5).asDiagonal();
   const auto law = [&]<class T>(const T* q, T* dq) {
@@ -110,10 +110,10 @@ TEST(Term, ALawOnTermsIsTheLawOnNumbers) {
     for (int i = 0; i < 3; ++i) dq[7 + i] = alpha[i];
   };
   ProgramBuilder builder(11);
-  std::vector<Term> inputs, outputs(10);
+  std::vector<ProgramNumber> inputs, outputs(10);
   for (int i = 1; i <= 10; ++i) inputs.emplace_back(builder, i);
   law(inputs.data(), outputs.data());
-  for (const Term& output : outputs) builder.add_output({false, {output.node(builder), 0, 0}});
+  for (const ProgramNumber& output : outputs) builder.add_output({false, {output.node(builder), 0, 0}});
   const Program program = builder.build();
 
   const std::vector<double> q{0.5, 0.5, -0.5, 0.5, 0.1, -0.2, 0.3, 1, -2, 0.5};

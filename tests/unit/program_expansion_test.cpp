@@ -2,11 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
-#include <filesystem>
-#include <fstream>
 #include <functional>
 #include <limits>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -19,15 +19,14 @@ namespace {
 
 using Rates = std::vector<std::string>;
 
-/// dq/dt = rates over t and the states x, y, z.
-Program compile(const Rates& rates, const SourceLocation& where = {}) {
-  Symbols symbols;
+/// dq/dt = rates over t and the states x, y, z, and the tables of `outer`.
+Program compile(const Rates& rates, const Symbols& outer = Symbols()) {
+  Symbols symbols(&outer);
   symbols.set_input("t", 0);
   const char* const names[] = {"x", "y", "z"};
   for (std::size_t i = 0; i < rates.size(); ++i) symbols.set_input(names[i], static_cast<int>(i) + 1);
   ProgramBuilder builder(static_cast<int>(rates.size()) + 1);
-  for (const std::string& rate : rates)
-    builder.add_output(builder.compile_scalar(Expression::parse(rate, where), symbols));
+  for (const std::string& rate : rates) builder.add_output(builder.compile_scalar(rate, symbols));
   return builder.build();
 }
 
@@ -126,7 +125,7 @@ TEST(ProgramExpansion, is_extended_where_its_coefficients_are) {
       {"acos(t)", [](Number t) { return std::acos(t); }},
       {"atan(t)", [](Number t) { return std::atan(t); }},
       {"atan2(t, 2)", [](Number t) { return std::atan2(t, Number(2)); }},
-      {"t^0.3", [](Number t) { return std::pow(t, Number(0.3)); }},
+      {"t^0.3", [](Number t) { return std::pow(t, Number(0.3L)); }},
       {"t^t", [](Number t) { return std::pow(t, t); }},
       {"norm([t, 1, 2])", [](Number t) { return std::sqrt(t * t + 5); }},
       {"abs(t - 1)", [](Number t) { return 1 - t; }},
@@ -145,6 +144,31 @@ TEST(ProgramExpansion, is_extended_where_its_coefficients_are) {
     EXPECT_NEAR(static_cast<double>(rate - function.value(0.5L + tau)), 0.0,
                 16 * std::numeric_limits<Number>::epsilon())
         << function.rate;
+  }
+}
+
+TEST(ProgramExpansion, constants_are_extended_where_its_coefficients_are) {
+  // each rate is its constant at t = 1
+  const struct {
+    const char* rate;
+    long double value;
+  } constants[] = {{"8/3*t", 8.0L / 3.0L},
+                   {"0.1*t", 0.1L},
+                   {"t/0.3", 1.0L / 0.3L},
+                   {"0.7/t", 0.7L},
+                   {"t - 0.1", 1.0L - 0.1L},
+                   {"0.1 - t", 0.1L - 1},
+                   {"0.1 + 0*t", 0.1L},
+                   {"1.1^(0.3*t)", std::pow(1.1L, 0.3L)},
+                   {"(1.1*t)^0.3", std::pow(1.1L, 0.3L)},
+                   {"10*(0.1*t)", 1.0L}};
+  for (const auto& constant : constants) {
+    ProgramExpansionT<long double> extended(compile({constant.rate}));
+    const long double start = 0.0L;
+    std::array<long double, 2> c{};
+    extended.expand(1.0, &start, 1, c.data());
+    EXPECT_NEAR(static_cast<double>(c[1] - constant.value), 0.0, 4 * std::numeric_limits<long double>::epsilon())
+        << constant.rate;
   }
 }
 
@@ -169,8 +193,8 @@ struct Leg {
 };
 
 std::vector<Leg> follow(const Rates& rates, double t, double x, double duration, int order = 8,
-                        const SourceLocation& where = {}) {
-  ProgramExpansion expansion(compile(rates, where));
+                        const Symbols& outer = Symbols()) {
+  ProgramExpansion expansion(compile(rates, outer));
   std::vector<Leg> legs;
   const double end = t + duration;
   for (int expansions = 0; expansions < 40; ++expansions) {
@@ -276,11 +300,10 @@ TEST(ProgramExpansion, no_series_is_not_a_number) {
 }
 
 TEST(ProgramExpansion, tables_end_at_their_points) {
-  const auto folder = std::filesystem::temp_directory_path() / "trajet_expansion_table";
-  std::filesystem::create_directories(folder);
-  std::ofstream(folder / "thrust.csv") << "0,0\n1,2\n3,2\n4,0\n";
-  const SourceLocation scene{(folder / "scene.toml").string(), 1, 1};
-  const Rates law{"table('thrust.csv', t)"};
+  Symbols scene;
+  scene.set_table(
+      "thrust", std::make_shared<const LookupTable>(std::vector{0.0, 1.0, 3.0, 4.0}, std::vector{0.0, 2.0, 2.0, 0.0}));
+  const Rates law{"table('thrust', t)"};
   const std::vector<Leg> legs = follow(law, 0.0, 0.0, 4.0, 8, scene);
   ASSERT_EQ(legs.size(), 4u);
   EXPECT_NEAR(legs[1].time, 1.0, 4e-15);
@@ -298,7 +321,6 @@ TEST(ProgramExpansion, tables_end_at_their_points) {
   double x = 0.0, c[4];
   expansion.expand(4.5, &x, 3, c);
   EXPECT_TRUE(std::isnan(c[1]));  // beyond the data
-  std::filesystem::remove_all(folder);
 }
 
 }  // namespace

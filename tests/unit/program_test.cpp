@@ -122,6 +122,41 @@ TEST(Program, drag_law_has_the_instructions_that_a_hand_would_write) {
   EXPECT_EQ(opcodes(compile({"-x^2/3"})), (Opcodes{Opcode::square, Opcode::divide_constant}));
 }
 
+/// The outputs of a program that was opened again.
+Program reopened(const Program& program) {
+  ProgramBuilder builder(program);
+  for (std::size_t i = 0; i < program.outputs.size(); ++i)
+    builder.add_output({false, {builder.output_of_base(static_cast<int>(i)), 0, 0}});
+  return builder.build();
+}
+
+TEST(Program, opened_again_is_the_same) {
+  for (const char* formula : {"-x/3", "[x, 2, sin(x)*cos(x)]", "where(x < y, norm(v), x^0.3)",
+                              "[cos(y), sin(y), sinh(z)*cosh(z)]", "v - 2*dot(v, r)*r", "x*y - y*x + atan2(x, y)",
+                              "[x, 0, 8/3*t]", "min(x, max(y, 3))", "cross(v, r)/dot(r, r)"}) {
+    const Program program = compile({formula, "x*y"});
+    const Program again = reopened(program);
+    EXPECT_EQ(opcodes(again), opcodes(program)) << formula;
+    EXPECT_EQ(again.constants.size(), program.constants.size()) << formula;
+    const std::array<double, kInputs - 1> state{0.3, -1.2, 0.7, 1.1, 2.3, -0.4};
+    std::vector<double> expected(program.outputs.size()), computed(program.outputs.size());
+    Evaluator<double> before(program), after(again);
+    before(0.9, state.data(), expected.data());
+    after(0.9, state.data(), computed.data());
+    EXPECT_EQ(computed, expected) << formula;
+  }
+}
+
+TEST(Program, opened_again_computes_nothing_twice) {
+  ProgramBuilder builder(compile({"sin(x)*y", "norm(v)"}));
+  const int product = builder.output_of_base(0);
+  // sin(x)*y, asked for once more, and what is new of it
+  const auto again = builder.compile("sin(x)*y + 1", some_symbols());
+  builder.add_output({false, {product, 0, 0}});
+  builder.add_output(again);
+  EXPECT_EQ(opcodes(builder.build()), (Opcodes{Opcode::sin, Opcode::multiply, Opcode::add_constant}));
+}
+
 TEST(Program, force_by_mass) {
   ProgramBuilder builder(kInputs);
   const auto force = builder.compile_vector("[x, 2*y, -z]", some_symbols());

@@ -105,6 +105,82 @@ TEST(RunFailure, ALawThatIsNotFiniteAtTheStart) {
   }
 }
 
+std::string failure_of(const std::string& text) {
+  const RunResult result = run_text(text);
+  EXPECT_EQ(result.status, RunStatus::failed) << text;
+  return result.failure;
+}
+
+TEST(RunFailure, SaysWhichFormulaIsNotFiniteAndOfWhat) {
+  for (const Way& way : ways()) {
+    SCOPED_TRACE(way.name);
+    const std::string head = "[time]\nend = 2\n[method]\n" + way.lines;
+    const std::string at_rest = failure_of(head +
+                                           "[[body]]\nname = \"cart\"\nposition = [1, 2, 3]\nacceleration = "
+                                           "\"unit(v) - [0, 0, k]\"\n[parameters]\nk = 9.5\n");
+    EXPECT_NE(at_rest.find("the law is not finite: acceleration of body 'cart' (test.toml:"), std::string::npos)
+        << at_rest;
+    EXPECT_NE(at_rest.find(":17: unit(v) - [0, 0, k]) is [not-a-number, not-a-number, not-a-number] at t = 0 s, "
+                           "where v = [0, 0, 0], k = 9.5"),
+              std::string::npos)
+        << at_rest;
+    // a hole on the way: z falls below 1/2 at t = 0.7
+    const std::string on_the_way =
+        failure_of(head +
+                   "[[body]]\nname = \"stone\"\nposition = [0, 0, 1.2]\nvelocity = [0, 0, -1]\n"
+                   "[[state]]\nname = \"depth\"\nvalue = 1\nrate = \"sqrt(stone.z - 0.5)\"\n");
+    EXPECT_NE(on_the_way.find("rate of state 'depth' (test.toml:"), std::string::npos) << on_the_way;
+    EXPECT_NE(on_the_way.find("sqrt(stone.z - 0.5)) is not-a-number at t = 0.7"), std::string::npos) << on_the_way;
+    EXPECT_NE(on_the_way.find("where stone.z = 0.49"), std::string::npos) << on_the_way;
+  }
+}
+
+TEST(RunFailure, ForceAndMassAreNamedTogether) {
+  const std::string failure = failure_of(
+      "[time]\nend = 2\n[[state]]\nname = \"fuel\"\nvalue = 1\nrate = -1\n[[body]]\nname = \"rocket\"\n"
+      "force = [0, 0, 1]\nmass = \"fuel\"\n");
+  EXPECT_NE(failure.find("force of body 'rocket' (test.toml:9:10: [0, 0, 1]) is [0, 0, 1] at t = "), std::string::npos)
+      << failure;
+  EXPECT_NE(failure.find("mass of body 'rocket' (test.toml:10:9: fuel) is "), std::string::npos) << failure;
+}
+
+TEST(RunFailure, ToldApartAreInfinityInFiniteTimeAndAPole) {
+  for (const char* method : {"taylor", "taylor-extended", "dopri5", "dop853"}) {
+    SCOPED_TRACE(method);
+    const std::string head = std::string("[time]\nend = 2\n[method]\nname = \"") + method + "\"\n";
+    const std::string blow_up = failure_of(head + "[[state]]\nname = \"v\"\nvalue = 1\nrate = \"v^2\"\n");
+    EXPECT_NE(blow_up.find("state 'v' runs to infinity in finite time, near t = "), std::string::npos) << blow_up;
+    EXPECT_NE(blow_up.find("rate of state 'v' (test.toml:8:9: v^2) is "), std::string::npos) << blow_up;
+    const std::string pole = failure_of(head + "[[state]]\nname = \"v\"\nvalue = 1\nrate = \"1/sqrt(1 - t)\"\n");
+    EXPECT_EQ(pole.find("in finite time"), std::string::npos) << pole;
+    EXPECT_NE(pole.find("1/sqrt(1 - t)"), std::string::npos) << pole;
+  }
+}
+
+TEST(RunFailure, ABlowUpJustAtTheEndIsTold) {
+  // dv/dt = v^2 from 1: infinite at t = 1, in a scene of the state and in one of a body
+  for (const char* method : {"taylor", "taylor-extended", "dopri5", "dop853"}) {
+    SCOPED_TRACE(method);
+    const std::string head = std::string("[time]\nend = 1\n[method]\nname = \"") + method + "\"\n";
+    EXPECT_NE(failure_of(head + "[[state]]\nname = \"v\"\nvalue = 1\nrate = \"v^2\"\n").find("runs to infinity"),
+              std::string::npos);
+    EXPECT_NE(failure_of(head + "[[body]]\nname = \"b\"\nvelocity = [1, 0, 0]\nacceleration = \"[vx^2, 0, 0]\"\n")
+                  .find("runs to infinity"),
+              std::string::npos);
+    // a steep end is none
+    for (const char* rate : {"1e6*t^20", "20*v", "-1e7*(v - 1)", "1/(1.001 - t)"})
+      EXPECT_EQ(run_text(head + "max_steps = 100000000\n[[state]]\nname = \"v\"\nvalue = 1\nrate = \"" + rate + "\"\n")
+                    .status,
+                RunStatus::finished)
+          << rate;
+  }
+  // nor is a pulse that has just begun, from rest
+  const RunResult pulse =
+      run_text("[time]\nend = 1\n[[state]]\nname = \"v\"\nvalue = 0\nrate = \"where(t > 0.9999999, 1e9, 0)\"\n");
+  EXPECT_EQ(pulse.status, RunStatus::finished) << pulse.failure;
+  EXPECT_NEAR(test::state_of(pulse, "v"), 100.0, 1e-5);
+}
+
 TEST(RunFailure, AnInterruptionKeepsWhatWasComputed) {
   for (const Way& way : ways()) {
     Log log;

@@ -78,7 +78,7 @@ TEST(SolidScene, WaysThatDoNotSuitTheLawAreErrors) {
 
 TEST(SolidScene, OrientationsInAllForms) {
   const char* const forms[] = {"{axis = [0, 0, 2], angle = \"90 deg\"}", "{quaternion = [2, 0, 0, 2]}",
-                               "{matrix = [[0, -1, 0], [1, 0, 0], [0, 0, 1]]}"};
+                               "{matrix = [[0, -1, 0], [1, 0, 0], [0, 0, 1]]}", "{yaw = \"90 deg\"}"};
   for (const char* form : forms)
     for (const char* spin :
          {"", "\nangular_velocity_body = [0, 0, 0]", "\ninertia = [1, 2, 2.5]\nangular_velocity = [0, 0, 0]"}) {
@@ -86,6 +86,20 @@ TEST(SolidScene, OrientationsInAllForms) {
       EXPECT_LE((b.rotation_matrix * Vector3(1, 0, 0) - Vector3(0, 1, 0)).norm(), 1e-15) << form << spin;
       EXPECT_LE(std::abs(b.orientation.w() - std::sqrt(0.5)), 1e-15);
     }
+}
+
+TEST(SolidScene, RollPitchAndYawTurnAboutXThenYThenZOfTheWorld) {
+  // x goes down by the pitch, then round by the yaw; y is rolled up to z, pitched to x, yawed to y
+  const BodyState b =
+      final_of(run_text(scene("orientation = {roll = \"90 deg\", pitch = \"90 deg\", yaw = \"90 deg\"}")), "b");
+  EXPECT_LE((b.rotation_matrix.col(0) - Vector3(0, 0, -1)).norm(), 1e-15);
+  EXPECT_LE((b.rotation_matrix.col(1) - Vector3(0, 1, 0)).norm(), 1e-15);
+  const double roll = 0.3, pitch = -0.4, yaw = 2.5;
+  const BodyState c = final_of(run_text(scene("orientation = {roll = 0.3, pitch = -0.4, yaw = 2.5}")), "b");
+  const Matrix3 expected = (Eigen::AngleAxisd(yaw, Vector3::UnitZ()) * Eigen::AngleAxisd(pitch, Vector3::UnitY()) *
+                            Eigen::AngleAxisd(roll, Vector3::UnitX()))
+                               .toRotationMatrix();
+  EXPECT_LE((c.rotation_matrix - expected).norm(), 1e-15);
 }
 
 TEST(SolidScene, LawsReadTheRotation) {
@@ -190,7 +204,9 @@ TEST(SolidScene, OrientationsAreComparedWithClosedForms) {
       "b.orientation = {axis = [0, 0, 3], angle = \"2*t\"}\n",
       "b.orientation = {quaternion = [\"-cos(t)\", 0, 0, \"-sin(t)\"]}\n",  // the other one of the two
       "b.orientation = {matrix = [[\"cos(2*t)\", \"-sin(2*t)\", 0], [\"sin(2*t)\", \"cos(2*t)\", 0], [0, 0, 1]]}\n",
-      "b.qw = \"cos(t)\"\nb.qx = 0\nb.qy = 0\nb.qz = \"sin(t)\"\n"};
+      "b.qw = \"cos(t)\"\nb.qx = 0\nb.qy = 0\nb.qz = \"sin(t)\"\n",
+      "b.orientation = {yaw = \"2*t\"}\n",
+      "b.orientation = {roll = \"180 deg\", pitch = \"180 deg\", yaw = \"2*t - 180*pi/180\"}\n"};
   const double h = 0.1, lag = 10 * std::atan(h) - 1.0;  // of half the angle, after 10 steps
   const double length = std::pow(1 + h * h, 5.0), stretch = std::pow(1 + 4 * h * h, 5.0);
   const auto row = [&](const std::string& way, const std::string& exact) {
@@ -216,6 +232,20 @@ TEST(SolidScene, OrientationsAreComparedWithClosedForms) {
 
 // The same motion again: R is multiplied by 1 + h w~, of determinant 1 + (h w)^2; q by a number of length
 // sqrt(1 + (h w/2)^2), and R = q (.) q* grows by the sixth power of it.
+TEST(SolidScene, AClosedFormByRollPitchAndYawIsTheStartsOwn) {
+  // about the world's z: only the yaw changes
+  const std::string start = "orientation = {roll = 0.3, pitch = -0.4, yaw = 2.5}\nangular_velocity = [0, 0, 2]";
+  const auto error = [&](const std::string& yaw) {
+    const std::string exact = "[exact]\nb.orientation = {roll = 0.3, pitch = -0.4, yaw = \"" + yaw + "\"}\n";
+    return *compare(parse_scene(scene(start, "[method]\norientation = \"rotation-vector\"\n" + exact), "s"),
+                    euler_with(10))
+                .rows.at(0)
+                .at_samples.state;
+  };
+  EXPECT_LE(error("2.5 + 2*t"), 1e-14);
+  EXPECT_GE(error("2.5 + 2.01*t"), 1e-3);
+}
+
 TEST(SolidScene, ComparisonsTellWhatBecomesOfRotations) {
   const std::string exact = "[exact]\nb.orientation = {axis = [0, 0, 1], angle = \"2*t\"}\n";
   ComparePlan plan = euler_with(10);

@@ -30,7 +30,11 @@ class Udunits {
   Udunits() {
     ut_set_error_message_handler(ut_ignore);
     system_ = ut_read_xml(nullptr);
-    for (const auto& [name, definition] : {std::pair{"deg", "degree"}, {"rev", "revolution"}, {"mph", "mile/hour"}}) {
+    for (const auto& [name, definition] : {std::pair{"deg", "degree"},
+                                           {"rev", "revolution"},
+                                           {"mph", "mile/hour"},
+                                           {"fps", "foot/second"},
+                                           {"moa", "arc_minute"}}) {
       ut_unit* unit = ut_parse(system_, definition, UT_UTF8);
       ut_map_name_to_unit(name, UT_UTF8, unit);
       ut_free(unit);
@@ -67,11 +71,11 @@ std::string base_units(const Dimension& dimension) {
 TEST(Units, AgreeWithUdunits) {
   // Each name alone and in every kind of product and power. Those before `dyne` are the common ones.
   const std::vector<std::string> names = {
-      "m",       "cm",    "mm",  "um",         "km",   "in",  "inch",    "ft",       "foot", "feet", "yd",
-      "yard",    "mile",  "s",   "ms",         "us",   "min", "h",       "hour",     "kg",   "g",    "mg",
-      "lb",      "grain", "N",   "kN",         "J",    "Hz",  "mph",     "knot",     "rad",  "deg",  "degree",
-      "degrees", "°",     "rev", "revolution", "turn", "rpm", "%",       "dyne",     "K",    "µm",   "Mm",
-      "Pa",      "W",     "lbf", "mol",        "cd",   "T",   "furlong", "fortnight"};
+      "m",       "cm",    "mm",  "um",         "km",   "in",  "inch", "ft",   "foot", "feet",    "yd",
+      "yard",    "mile",  "s",   "ms",         "us",   "min", "h",    "hour", "kg",   "g",       "mg",
+      "lb",      "grain", "N",   "kN",         "J",    "Hz",  "mph",  "knot", "rad",  "deg",     "degree",
+      "degrees", "°",     "rev", "revolution", "turn", "rpm", "%",    "mrad", "moa",  "fps",     "dyne",
+      "K",       "µm",    "Mm",  "Pa",         "W",    "lbf", "mol",  "cd",   "T",    "furlong", "fortnight"};
   Udunits authority;
   int common = 0;
   for (const std::string& name : names) {
@@ -95,7 +99,7 @@ TEST(Units, AgreeWithUdunits) {
       EXPECT_NEAR(factor(unit) / authority.factor(text, base_units(unit.dimension)), 1.0, 4e-15) << text;
     }
   }
-  EXPECT_EQ(common, 40);  // slug apart: UDUNITS-2 knows six digits of it
+  EXPECT_EQ(common, 43);  // without those that UDUNITS-2 knows six digits of (slug) or as something else (g0, mil)
 }
 
 TEST(Units, DecimalPrefixesAreExact) {
@@ -123,6 +127,40 @@ TEST(Units, WhatIsNoMultipleOfSiIsAnError) {
   for (const char* text :
        {"", "m^", "m^0", "m^9", "m^1.5", "m-", "m/", "/m", "m+s", "(m", "m)", "()", "10 m", "m**2", "²"})
     EXPECT_NE(message_of(text), "no error") << text;
+}
+
+TEST(Units, OfSightsAndOfFlight) {
+  EXPECT_DOUBLE_EQ(factor(parse_unit("moa")), std::numbers::pi / 10800);
+  EXPECT_EQ(factor(parse_unit("mil")), 1e-3);
+  EXPECT_EQ(parse_unit("mil").dimension, kAngle);
+  EXPECT_EQ(factor(parse_unit("g0")), 9.80665);
+  EXPECT_EQ(parse_unit("g0").dimension, kAcceleration);
+  EXPECT_EQ(parse_unit("fps").dimension, kSpeed);
+  EXPECT_EQ(parse_unit("g").dimension, kMass);
+}
+
+TEST(Units, PrefixesBeforeWhatTakesNoneAreRefused) {
+  for (const auto& [name, meaning] :
+       {std::pair{"nmi", "nautical_mile"}, {"kph", "km/h"}, {"PS", "hp"}, {"dpt", ""}, {"kft", ""}, {"Mmin", ""}}) {
+    EXPECT_NE(message_of(name).find(std::string("'") + name + "' is no unit here: UDUNITS-2 reads it as a prefix"),
+              std::string::npos)
+        << message_of(name);
+    EXPECT_NE(message_of(name).find(meaning), std::string::npos) << message_of(name);
+  }
+  EXPECT_NE(message_of("nmi").find("1.60934e-06 times the SI unit of length [m]"), std::string::npos);
+  for (const char* name : {"kmh", "lbs", "Nm", "kWh", "G"})
+    EXPECT_NE(message_of(name).find("; did you mean "), std::string::npos) << message_of(name);
+  EXPECT_NE(message_of("m/s**2").find("write ^"), std::string::npos);
+  // SI's own
+  for (const char* name : {"nm", "Mm", "kPa", "mbar", "kcal", "MeV", "mHz", "ml", "daN", "kilometer", "microsecond",
+                           "milliradian", "kilofeet", "µm", "Gs", "msec", "mT", "hPa", "nautical_mile"})
+    EXPECT_EQ(message_of(name), "no error") << name;
+}
+
+TEST(Units, FactorsInExtendedPrecision) {
+  EXPECT_EQ(parse_unit("deg").exact_factor, std::numbers::pi_v<long double> / 180);
+  EXPECT_EQ(parse_unit("km/h").exact_factor, 1000.0L / 3600.0L);
+  EXPECT_EQ(parse_unit("ms^2").exact_factor, (1.0L / 1000.0L) * (1.0L / 1000.0L));
 }
 
 TEST(Units, SuperscriptsArePowers) {

@@ -1,15 +1,16 @@
 import * as THREE from "three";
-import { Line2 } from "three/addons/lines/Line2.js";
-import { LineGeometry } from "three/addons/lines/LineGeometry.js";
-import { LineMaterial } from "three/addons/lines/LineMaterial.js";
+import { arrow, arrowPixels, point, stretch } from "./arrows";
 import type { Vector } from "./data";
-import { type BodyMotion, length } from "./motion";
+import { dots } from "./drawing";
+import type { BodyMotion } from "./motion";
 import { trailOf } from "./sampling";
 import { bodyGeometry, reach, vector } from "./shapes";
-import { kComponentColors, kQuantityColors } from "./theme";
+import { kComponentColors, kPalette, kQuantityColors } from "./theme";
+import { type Tail, trailLine, WholeTrail } from "./trail_line";
+import { length } from "./vectors";
 import { kViewSize, type ViewFrame } from "./view_frame";
 
-/** What is drawn of every body. */
+/** What is drawn of a body. */
 export interface Visibility {
   trails: boolean;
   velocity: boolean;
@@ -17,77 +18,35 @@ export interface Visibility {
   axes: boolean;
 }
 
-/** px: the length of the arrow of the largest velocity or acceleration, in a picture whose smaller side is so long. */
-export const arrowPixels = (size: number): number => Math.min(110, 0.2 * size);
+/** How a body is drawn: its colour, that of its points where they have their own, and how many others there are. */
+export interface Look {
+  color: string;
+  hasPointColors: boolean;
+  isOneOfMany: boolean;
+}
+
 /** The length of a body's axes, in how far the body reaches. */
 const kAxisReach = 1.4;
 /** px: the least length of a body's axes, and the size of a body too small to see. */
 const kAxisPixels = 45;
 const kDotPixels = 9;
-
-/** A white disk; made by hand because a canvas for it would be one more thing that the graphics processor sets up. */
-const dotTexture = (() => {
-  const kSide = 32;
-  let texture: THREE.DataTexture | undefined;
-  return (): THREE.Texture => {
-    if (texture) return texture;
-    const isInside = (i: number): boolean =>
-      Math.hypot((i % kSide) - (kSide - 1) / 2, Math.floor(i / kSide) - (kSide - 1) / 2) < (kSide - 1) / 2;
-    const texels = Array.from({ length: kSide * kSide }, (_, i) => [255, 255, 255, isInside(i) ? 255 : 0]);
-    texture = new THREE.DataTexture(new Uint8Array(texels.flat()), kSide, kSide);
-    texture.minFilter = texture.magFilter = THREE.LinearFilter;
-    texture.needsUpdate = true;
-    return texture;
-  };
-})();
-
-/** Round dots of constant size on the screen. */
-export function dots(points: THREE.Vector3[], color: string, pixels: number): THREE.Points {
-  const material = new THREE.PointsMaterial({
-    color,
-    size: pixels,
-    sizeAttenuation: false,
-    map: dotTexture(),
-    alphaTest: 0.5,
-  });
-  const result = new THREE.Points(new THREE.BufferGeometry().setFromPoints(points), material);
-  result.frustumCulled = false;
-  return result;
-}
-
-/** Makes all that is drawn of an object as opaque as given, 1: as it was made. */
-export function setOpacity(object: THREE.Object3D, opacity: number): void {
-  object.traverse((each) => {
-    const { material } = each as THREE.Object3D & { material?: THREE.Material };
-    if (!material) return;
-    material.userData.ownOpacity ??= material.opacity;
-    material.opacity = (material.userData.ownOpacity as number) * opacity;
-    material.transparent = material.opacity < 1;
-    if (material.alphaTest > 0) material.alphaTest = 0.5 * material.opacity;
-  });
-}
-
-/** An arrow along its own y axis from the origin, of length 1. */
-function arrow(color: string): THREE.Group {
-  const material = new THREE.MeshBasicMaterial({ color });
-  const shaft = new THREE.Mesh(new THREE.CylinderGeometry(0.02, 0.02, 0.8, 12).translate(0, 0.4, 0), material);
-  const head = new THREE.Mesh(new THREE.ConeGeometry(0.07, 0.22, 20).translate(0, 0.89, 0), material);
-  return new THREE.Group().add(shaft, head);
-}
+/** px */
+const kTrailWidth = 3;
+const kPointTrailWidth = 2;
+/** Of a run in more pieces, points leave no trails. */
+const kMostPieces = 50000;
 
 /** A body with all that is drawn of it. */
 export class Actor {
   readonly group = new THREE.Group();
-  private readonly body3d = new THREE.Group();
+  /** The body itself, as it stands. */
+  readonly body3d = new THREE.Group();
   private readonly dot: THREE.Points;
-  private readonly velocity: THREE.Group;
-  private readonly acceleration: THREE.Group;
-  private readonly axes: THREE.Group;
-  private readonly way: Line2;
-  private readonly tip: Line2;
-  private readonly wholeWay: THREE.Line;
-  private readonly times: number[];
-  private readonly points: THREE.Vector3[];
+  private readonly velocity = arrow(kQuantityColors.velocity);
+  private readonly acceleration = arrow(kQuantityColors.acceleration);
+  private readonly axes = new THREE.Group();
+  private readonly trail: WholeTrail;
+  private readonly pointTrails: { position: Vector; line: WholeTrail | Tail }[];
   /** How far the body reaches from its centre, and the same with the most that its numbers ever stretch it. */
   readonly reach: number;
   readonly widest: number;
@@ -103,35 +62,22 @@ export class Actor {
   constructor(
     readonly motion: BodyMotion,
     private readonly frame: ViewFrame,
-    readonly color: string,
+    private readonly look: Look,
   ) {
     this.reach = reach(motion.data) * frame.scale;
     this.widest = this.reach * largestStretch(motion);
-    const trail = trailOf(motion, (1e-4 * kViewSize) / frame.scale);
-    this.times = trail.times;
-    this.points = trail.points.map((point) => frame.toView(point));
-    const speeds = trail.times.map((t) => length(motion.velocity(t)));
-    const accelerations = trail.times.map((t) => length(motion.acceleration(t)));
-    this.mostSpeed = largest(speeds);
-    this.mostAcceleration = largest(accelerations);
-
-    const geometry = bodyGeometry(motion.data.shape, color, motion.turns);
-    if (geometry) {
-      this.body3d.add(new THREE.Mesh(geometry, new THREE.MeshLambertMaterial({ vertexColors: true })));
-      if (motion.data.shape.kind !== "sphere")
-        this.body3d.add(
-          new THREE.LineSegments(
-            new THREE.EdgesGeometry(geometry, 15),
-            new THREE.LineBasicMaterial({ color: "#1d1d22", transparent: true, opacity: 0.6 }),
-          ),
-        );
-    }
-    this.addPoints(color);
+    const trail = trailOf(motion, this.tolerance);
+    this.mostSpeed = largest(trail.times.map((t) => length(motion.velocity(t))));
+    this.mostAcceleration = largest(trail.times.map((t) => length(motion.acceleration(t))));
+    this.trail = new WholeTrail(
+      { times: trail.times, points: trail.points.map((each) => frame.toView(each)) },
+      look.color,
+      kTrailWidth,
+    );
+    this.addShape();
+    this.pointTrails = this.addPoints();
     this.body3d.matrixAutoUpdate = false;
-    this.dot = dots([new THREE.Vector3()], color, kDotPixels);
-    this.velocity = arrow(kQuantityColors.velocity);
-    this.acceleration = arrow(kQuantityColors.acceleration);
-    this.axes = new THREE.Group();
+    this.dot = dots([new THREE.Vector3()], look.color, kDotPixels);
     const directions: Vector[] = [
       [0, 0, -Math.PI / 2],
       [0, 0, 0],
@@ -142,46 +88,65 @@ export class Actor {
       axis.rotation.set(...turn);
       this.axes.add(axis);
     });
-
-    const positions = new Float32Array(this.points.length * 3);
-    this.points.forEach((point, i) => point.toArray(positions, 3 * i));
-    const lineMaterial = new LineMaterial({ color, linewidth: 3 });
-    this.way = new Line2(new LineGeometry().setPositions(positions), lineMaterial);
-    this.tip = new Line2(new LineGeometry().setPositions([0, 0, 0, 0, 0, 0]), lineMaterial);
-    this.wholeWay = new THREE.Line(
-      new THREE.BufferGeometry().setFromPoints(this.points),
-      new THREE.LineBasicMaterial({ color, transparent: true, opacity: 0.35 }),
-    );
-    for (const line of [this.way, this.tip, this.wholeWay]) line.frustumCulled = false;
-    this.group.add(
-      this.body3d,
-      this.dot,
-      this.velocity,
-      this.acceleration,
-      this.axes,
-      this.way,
-      this.tip,
-      this.wholeWay,
-    );
+    const trails = [this.trail, ...this.pointTrails.map(({ line }) => line)].map(({ group }) => group);
+    this.group.add(this.body3d, this.dot, this.velocity, this.acceleration, this.axes, ...trails);
   }
 
-  /** Named points as dots, and, of a body without a shape, rods to them from the centre of mass. */
-  private addPoints(color: string): void {
+  /** m; how well trails follow ways. */
+  private get tolerance(): number {
+    return (1e-4 * kViewSize) / this.frame.scale;
+  }
+
+  private addShape(): void {
+    const { data, turns } = this.motion;
+    const geometry = bodyGeometry(data.shape, this.look.color, turns, this.look.isOneOfMany);
+    if (!geometry) return;
+    this.body3d.add(new THREE.Mesh(geometry, new THREE.MeshLambertMaterial({ vertexColors: true })));
+    if (data.shape.kind === "sphere") return;
+    const edges = new THREE.EdgesGeometry(geometry, 15);
+    const material = new THREE.LineBasicMaterial({ color: "#1d1d22", transparent: true, opacity: 0.6 });
+    this.body3d.add(new THREE.LineSegments(edges, material));
+  }
+
+  /**
+   * Named points as dots, and, of a body without a shape, rods to them from the centre of mass. Returns their trails, of
+   * those that do not go where the centre goes.
+   */
+  private addPoints(): { position: Vector; line: WholeTrail | Tail }[] {
     const { points, shape } = this.motion.data;
     const { Mesh, SphereGeometry, CylinderGeometry, MeshLambertMaterial, Vector3, Quaternion } = THREE;
-    const material = new MeshLambertMaterial({ color });
     const thickness = 0.035 * reach(this.motion.data);
-    for (const { position } of points) {
+    const own = new MeshLambertMaterial({ color: this.look.color });
+    const trails: { position: Vector; line: WholeTrail | Tail }[] = [];
+    points.forEach(({ position }, i) => {
+      const color = this.look.hasPointColors ? kPalette[(i + 1) % kPalette.length] : this.look.color;
       const end = vector(position);
-      const dot = new Mesh(new SphereGeometry(1.4 * thickness, 20, 14), material);
+      const dot = new Mesh(new SphereGeometry(1.4 * thickness, 20, 14), new MeshLambertMaterial({ color }));
       dot.position.copy(end);
       this.body3d.add(dot);
-      if (shape.kind !== "point" || end.length() === 0) continue;
-      const rod = new Mesh(new CylinderGeometry(thickness, thickness, end.length(), 20), material);
+      if (end.length() === 0) return;
+      if (this.motion.turns && this.motion.track.count <= kMostPieces) {
+        const { times, points: places } = trailOf(this.motion, this.tolerance, position);
+        const way = { times, points: places.map((each) => this.frame.toView(each)) };
+        trails.push({ position, line: trailLine(way, color, kPointTrailWidth) });
+      }
+      if (shape.kind !== "point") return;
+      const rod = new Mesh(new CylinderGeometry(thickness, thickness, end.length(), 20), own);
       rod.position.copy(end).multiplyScalar(0.5);
       rod.quaternion.copy(new Quaternion().setFromUnitVectors(new Vector3(0, 1, 0), end.clone().normalize()));
       this.body3d.add(rod);
-    }
+    });
+    return trails;
+  }
+
+  /** Whether the body is so small in the picture that a dot stands for it. */
+  get isDot(): boolean {
+    return this.dot.visible;
+  }
+
+  /** How far from the centre arrows begin: at the surface of a solid, in which they could not be seen. */
+  private get arrowStart(): number {
+    return this.motion.data.shape.kind === "point" ? 0 : this.reach;
   }
 
   /**
@@ -195,8 +160,6 @@ export class Actor {
     this.top.copy(this.place).z += this.widest;
     this.foot.copy(this.place).z -= this.widest;
     const size = pixel(this.place);
-    const [w, x, y, z] = motion.orientation(t);
-    const turn = new THREE.Quaternion(x, y, z, w);
     const s = this.frame.scale;
     const [xx, xy, xz, yx, yy, yz, zx, zy, zz] = motion.carriedMatrix(t).map((each) => s * each);
     this.body3d.matrix.set(xx, xy, xz, local.x, yx, yy, yz, local.y, zx, zy, zz, local.z, 0, 0, 0, 1);
@@ -205,57 +168,63 @@ export class Actor {
     this.dot.visible = this.reach < 0.5 * kDotPixels * size;
 
     const longest = arrowPixels(pictureSize) * size;
-    point(this.velocity, local, motion.velocity(t), this.mostSpeed, shown.velocity, longest);
-    point(this.acceleration, local, motion.acceleration(t), this.mostAcceleration, shown.acceleration, longest);
-    this.axes.visible = shown.axes && motion.turns;
-    this.axes.position.copy(local);
-    this.axes.quaternion.copy(turn);
-    for (const axis of this.axes.children)
-      stretch(axis, Math.max(kAxisReach * this.reach, kAxisPixels * size), 2 * kAxisPixels * size);
+    this.velocity.visible = this.acceleration.visible = false;
+    if (shown.velocity) point(this.velocity, local, motion.velocity(t), this.mostSpeed, longest, this.arrowStart);
+    if (shown.acceleration)
+      point(this.acceleration, local, motion.acceleration(t), this.mostAcceleration, longest, this.arrowStart);
+    this.showAxes(t, local, shown.axes, size);
+    this.trail.group.visible = shown.trails;
+    if (shown.trails) this.trail.update(t, local);
+    for (const { position, line } of this.pointTrails) {
+      line.group.visible = shown.trails;
+      if (shown.trails) line.update(t, this.frame.toView(motion.pointPosition(position, t)));
+    }
+  }
 
-    this.showWay(t, local, shown.trails);
+  private showAxes(t: number, local: THREE.Vector3, isShown: boolean, pixel: number): void {
+    this.axes.visible = isShown && this.motion.turns;
+    if (!this.axes.visible) return;
+    const [w, x, y, z] = this.motion.orientation(t);
+    this.axes.position.copy(local);
+    this.axes.quaternion.set(x, y, z, w);
+    for (const axis of this.axes.children)
+      stretch(axis, Math.max(kAxisReach * this.reach, kAxisPixels * pixel), 2 * kAxisPixels * pixel);
   }
 
   /** Where arrows and axes come to on the way, if the longest arrows are so long, in the drawing. */
   arrowTips(longest: number): THREE.Vector3[] {
-    const { motion } = this;
-    const { begin, end } = motion.track;
+    const { begin, end } = this.motion.track;
     const kTimes = 24;
+    return Array.from({ length: kTimes + 1 }, (_, i) =>
+      this.tipsAt(begin + ((end - begin) * i) / kTimes, longest),
+    ).flat();
+  }
+
+  private tipsAt(t: number, longest: number): THREE.Vector3[] {
+    const { motion } = this;
     const tips: THREE.Vector3[] = [];
-    for (let i = 0; i <= kTimes; ++i) {
-      const t = begin + ((end - begin) * i) / kTimes;
-      const place = this.frame.toView(motion.position(t)).add(this.offset);
-      const add = (direction: Vector, most: number): void => {
-        if (most > 0) tips.push(place.clone().addScaledVector(vector(direction), longest / most));
-      };
-      add(motion.velocity(t), this.mostSpeed);
-      add(motion.acceleration(t), this.mostAcceleration);
-      // axes come to any side of the body
-      const axis = motion.turns ? Math.max(kAxisReach * this.reach, longest / 2) : 0;
-      if (axis > 0)
-        for (const side of [-axis, axis])
-          tips.push(...[0, 1, 2].map((k) => place.clone().setComponent(k, place.getComponent(k) + side)));
-    }
+    const place = this.frame.toView(motion.position(t)).add(this.offset);
+    const add = (direction: Vector, most: number): void => {
+      const size = length(direction);
+      if (!(most > 0 && size > 0)) return;
+      const far = this.arrowStart + (longest * size) / most;
+      tips.push(place.clone().addScaledVector(vector(direction), far / size));
+    };
+    add(motion.velocity(t), this.mostSpeed);
+    add(motion.acceleration(t), this.mostAcceleration);
+    // axes come to any side of the body
+    const axis = motion.turns ? Math.max(kAxisReach * this.reach, longest / 2) : 0;
+    if (axis > 0)
+      for (const side of [-axis, axis])
+        tips.push(...[0, 1, 2].map((k) => place.clone().setComponent(k, place.getComponent(k) + side)));
     return tips;
   }
 
-  private showWay(t: number, local: THREE.Vector3, isShown: boolean): void {
-    let low = 0;
-    let high = this.times.length - 1;
-    while (low < high) {
-      const middle = (low + high + 1) >> 1;
-      if (this.times[middle] <= t) low = middle;
-      else high = middle - 1;
-    }
-    this.way.visible = isShown && low > 0;
-    this.way.geometry.instanceCount = low;
-    this.tip.visible = isShown;
-    // both ends of the one line share a buffer
-    const ends = (this.tip.geometry.getAttribute("instanceStart") as THREE.InterleavedBufferAttribute).data;
-    this.points[low].toArray(ends.array, 0);
-    local.toArray(ends.array, 3);
-    ends.needsUpdate = true;
-    this.wholeWay.visible = isShown;
+  /** How far the body and what is drawn at it reach from its centre, if the longest arrows are so long. */
+  reachWithArrows(longest: number): number {
+    const hasArrow = this.mostSpeed > 0 || this.mostAcceleration > 0;
+    const axis = this.motion.turns ? kAxisReach * this.reach : 0;
+    return Math.max(this.widest, axis, hasArrow ? this.arrowStart + longest : 0);
   }
 }
 
@@ -273,26 +242,3 @@ function largestStretch(motion: BodyMotion): number {
 }
 
 const largest = (values: number[]): number => values.reduce((most, value) => Math.max(most, value), 0);
-
-function point(
-  arrow: THREE.Group,
-  at: THREE.Vector3,
-  direction: Vector,
-  most: number,
-  isShown: boolean,
-  longest: number,
-): void {
-  const size = length(direction);
-  arrow.visible = isShown && size > 1e-9 * most && most > 0;
-  if (!arrow.visible) return;
-  arrow.position.copy(at);
-  const unit = new THREE.Vector3(direction[0] / size, direction[1] / size, direction[2] / size);
-  arrow.quaternion.setFromUnitVectors(new THREE.Vector3(0, 1, 0), unit);
-  stretch(arrow, (longest * size) / most, longest);
-}
-
-/** An arrow of that length, as thick as one of the length `usual`, as long as it is longer than thick. */
-function stretch(arrow: THREE.Object3D, drawn: number, usual: number): void {
-  const thickness = Math.min(usual, 2 * drawn);
-  arrow.scale.set(thickness, drawn, thickness);
-}

@@ -2,9 +2,12 @@ import { Clock } from "./clock";
 import type { Report, RunData, Vector } from "./data";
 import { checkbox, element, iconButton, kIcons } from "./dom";
 import { helpDialog } from "./help";
-import { ImpactList } from "./impact_list";
+import { MomentList } from "./moment_list";
+import { countUntil, ending, momentText } from "./moments";
 import { namedRuns, type Run } from "./motion";
 import { Plots } from "./plots";
+import { Readout } from "./readout";
+import { sceneDialog } from "./scene_dialog";
 import { Stage } from "./stage";
 import { applyTheme, colorOf, rememberTheme, type Theme } from "./theme";
 import { Timeline } from "./timeline";
@@ -18,14 +21,20 @@ export class App {
   readonly clock: Clock;
   private readonly timeline: Timeline;
   private readonly plots: Plots;
-  private readonly impactList: ImpactList;
+  private readonly momentList: MomentList;
+  private readonly readout: Readout | null = null;
+  private readonly moment = element("p", { class: "moment", "aria-hidden": "true", hidden: true });
+  private readonly choice = element("select", { "aria-label": "Body" });
   private stage: Stage | null = null;
-  private readonly help: HTMLDialogElement;
+  private readonly help = helpDialog();
+  private readonly sceneDialog: HTMLDialogElement;
+  /** s; where the pointer rests on a plot while nothing plays: shown instead of the clock's time. */
+  private preview: number | null = null;
   private isStale = true;
   private lastFrame = 0;
 
-  /** `time`: what to show first, s; by default the beginning. */
-  constructor(root: HTMLElement, data: readonly RunData[], time?: number) {
+  /** `time`: what to show first, s; by default the beginning. `sceneText`: as its author wrote it. */
+  constructor(root: HTMLElement, data: readonly RunData[], time?: number, sceneText = "") {
     this.runs = namedRuns(data);
     const [first] = this.runs;
     const { report } = first.data;
@@ -33,31 +42,48 @@ export class App {
     this.clock = new Clock(
       Math.min(...this.runs.map((run) => run.begin)),
       Math.max(...this.runs.map((run) => run.end)),
+      Math.max(...this.runs.map((run) => run.fastestSpin)),
     );
-    const stale = (): void => void (this.isStale = true);
-    this.timeline = new Timeline(this.clock, first.impacts, stale);
-    this.impactList = new ImpactList(first.impacts, (t) => this.seek(t));
-    this.help = helpDialog();
+    const changed = (): void => {
+      this.preview = null;
+      this.isStale = true;
+    };
+    this.timeline = new Timeline(this.clock, first.moments, changed);
+    this.momentList = new MomentList(first.moments, (t) => this.seek(t));
+    this.sceneDialog = sceneDialog(this.runs, sceneText);
 
     const view = element("div", { class: "stage" });
     const plots = element("div", { class: "plots" });
-    const side = element("aside", { class: "side", "aria-label": "Plots and impacts" });
+    const side = element("aside", { class: "side", "aria-label": "Values, plots, impacts and events" });
     const body = element("main", { class: "body" });
-    if (first.bodies.length > 0) body.append(view);
+    const column = element("div", { class: "picture" }, view);
+    if (first.bodies.length > 0) body.append(column);
     else body.classList.add("plots-only");
     body.append(side);
-    root.append(this.header(), ...this.messages(), body, this.timeline.root, this.help);
-    if (first.bodies.length > 0) this.stage = this.makeStage(view, stale);
-    if (first.bodies.length > 1 && this.clock.duration > 0) side.append(this.bodyChoice());
+    root.append(this.header(), ...this.messages(), body, this.timeline.root, this.help, this.sceneDialog);
+    if (first.bodies.length > 0) {
+      view.append(this.moment);
+      this.stage = this.makeStage(column, view);
+      this.readout = new Readout(first.bodies[0]);
+      const head = element("div", { class: "side-head" }, ...this.bodyChoice(), this.readout.root);
+      side.append(head);
+    }
     side.append(plots);
-    if (first.impacts.length > 0) side.append(this.impactList.root);
-    this.plots = new Plots(plots, this.runs, first.bodies[0]?.name ?? null, (t) => this.seek(t));
+    if (first.moments.length > 0) side.append(this.momentList.root);
+    this.plots = new Plots(
+      plots,
+      this.runs,
+      first.bodies[0]?.name ?? null,
+      (t) => this.seek(t),
+      (t) => this.showPreview(t),
+    );
 
-    new ResizeObserver(() => {
+    const sizes = new ResizeObserver(() => {
       this.stage?.resize();
       this.plots.resize();
       this.isStale = true;
-    }).observe(body);
+    });
+    for (const each of [body, view]) sizes.observe(each);
     if (time !== undefined) this.seek(time);
     document.addEventListener("keydown", (event) => this.onKey(event));
     requestAnimationFrame((now) => this.onFrame(now));
@@ -70,6 +96,14 @@ export class App {
 
   seek(t: number): void {
     this.timeline.seek(t);
+  }
+
+  /** The time that the pointer rests on in a plot, unless the motion plays. */
+  private showPreview(t: number | null): void {
+    const next = this.clock.isPlaying ? null : t;
+    if (next === this.preview) return;
+    this.preview = next;
+    this.isStale = true;
   }
 
   /** m; where a body's centre is at time t, in one of the runs. */
@@ -93,17 +127,32 @@ export class App {
     }
     if (this.isStale) {
       this.isStale = false;
-      this.timeline.update();
-      this.plots.setTime(this.clock.time);
-      this.stage?.highlight(this.impactList.setTime(this.clock.time));
-      this.stage?.render(this.clock.time);
+      const t = this.preview ?? this.clock.time;
+      this.timeline.update(t);
+      this.plots.setTime(t);
+      this.readout?.setTime(t);
+      this.momentList.setTime(t);
+      this.showMoment(t);
+      this.stage?.render(t);
     }
     requestAnimationFrame((next) => this.onFrame(next));
   }
 
+  /** The last thing that has happened until t, over the picture. */
+  private showMoment(t: number): void {
+    const { moments } = this.runs[0];
+    const count = countUntil(moments, t);
+    const text = count === 0 ? "" : `${count} of ${moments.length}: ${momentText(moments[count - 1])}`;
+    this.moment.classList.toggle("now", count > 0 && moments[count - 1].time === t);
+    if (text === this.moment.textContent) return;
+    this.moment.textContent = text;
+    this.moment.hidden = text === "";
+    this.stage?.refreshLabels();
+  }
+
   private header(): HTMLElement {
     const { report } = this.runs[0].data;
-    const status = element("span", { class: `status ${report.status}` }, report.status);
+    const status = element("span", { class: `status ${report.status}` }, ending(report));
     const names = this.runs.map((run, i) => {
       const key = element("span", { class: "key" }, run.name);
       if (this.runs.length > 1) key.style.setProperty("--mark", colorOf(this.runs.length, i, 0));
@@ -116,6 +165,7 @@ export class App {
       element("span", { class: "methods" }, ...names),
       status,
       element("span", { class: "spacer" }),
+      iconButton("Scene: parameters, method, text", "E", kIcons.scene, () => this.sceneDialog.showModal()),
       iconButton("Light or dark", "D", kIcons.theme, () => this.toggleTheme()),
       iconButton("Keys", "?", kIcons.help, () => this.help.showModal()),
     );
@@ -129,10 +179,15 @@ export class App {
     ]);
   }
 
-  private makeStage(view: HTMLElement, stale: () => void): Stage | null {
+  private makeStage(column: HTMLElement, view: HTMLElement): Stage | null {
+    const stale = (): void => void (this.isStale = true);
     let stage: Stage;
     try {
-      stage = new Stage(view, this.runs, stale);
+      stage = new Stage(view, this.runs, {
+        changed: stale,
+        chooseBody: (name) => this.chooseBody(name),
+        seek: (t) => this.seek(t),
+      });
     } catch {
       view.append(element("p", { class: "message" }, "This browser shows no WebGL: plots only."));
       return null;
@@ -182,23 +237,27 @@ export class App {
       "details",
       { class: "panel", open: innerWidth > 800 },
       element("summary", {}, "View"),
-      options,
-      element("div", { class: "camera" }, camera, all),
+      element("div", {}, options, element("div", { class: "camera" }, camera, all)),
     );
-    panel.addEventListener("toggle", () => {
-      stage.refreshLabels();
-      stale();
-    });
-    view.append(panel);
-    stage.refreshLabels();
+    column.prepend(panel);
     return stage;
   }
 
-  private bodyChoice(): HTMLElement {
-    const choice = element("select", { "aria-label": "Body" });
-    for (const body of this.runs[0].bodies) choice.append(element("option", {}, body.name));
-    choice.addEventListener("change", () => this.plots.setBody(choice.value));
-    return element("label", { class: "body-choice" }, "Plots of ", choice);
+  /** What chooses the body of plots and values, where there are several. */
+  private bodyChoice(): HTMLElement[] {
+    const { bodies } = this.runs[0];
+    if (bodies.length < 2) return [];
+    for (const body of bodies) this.choice.append(element("option", {}, body.name));
+    this.choice.addEventListener("change", () => this.chooseBody(this.choice.value));
+    return [element("label", { class: "body-choice" }, "Values and plots of ", this.choice)];
+  }
+
+  private chooseBody(name: string): void {
+    this.choice.value = name;
+    this.plots.setBody(name);
+    this.readout?.setBody(this.runs[0].body(name)!);
+    this.stage?.choose(name);
+    this.isStale = true;
   }
 
   private toggleTheme(): void {
@@ -212,7 +271,8 @@ export class App {
 
   private onKey(event: KeyboardEvent): void {
     const target = event.target as HTMLElement;
-    if (event.ctrlKey || event.metaKey || event.altKey || target instanceof HTMLSelectElement || this.help.open) return;
+    if (event.ctrlKey || event.metaKey || event.altKey || target instanceof HTMLSelectElement) return;
+    if (this.help.open || this.sceneDialog.open) return;
     // On the slider the browser's own arrow keys would compete, on a button the space bar presses it.
     if (event.key === " " && (target instanceof HTMLButtonElement || (target as HTMLInputElement).type === "checkbox")) return;
     const action = this.actions()[event.key.length === 1 ? event.key.toLowerCase() : event.key];
@@ -241,6 +301,7 @@ export class App {
       "-": () => this.timeline.changeSpeed(-1),
       f: () => this.cycleCamera(),
       d: () => this.toggleTheme(),
+      e: () => this.sceneDialog.showModal(),
       "?": () => this.help.showModal(),
       ...Object.fromEntries(["T", "V", "A", "B", "I", "G", "S"].map((key) => [key.toLowerCase(), click(key)])),
     };

@@ -1,7 +1,10 @@
 /** Real seconds that a run is to take at the speed chosen for it, about. */
 const kComfortableDuration = 6;
+/** Turns in a real second that the eye follows, two and a little more, and the real seconds that a run may take for it. */
+const kTurnsToFollow = 2.1;
+const kLongestDuration = 300;
 
-/** The time that is shown, and how it goes on while the motion plays. */
+/** The time that is shown, and how it goes on while the motion plays. `fastestSpin`: rad/s, of all that it shows. */
 export class Clock {
   time: number;
   isPlaying = false;
@@ -10,9 +13,10 @@ export class Clock {
   constructor(
     readonly begin: number,
     readonly end: number,
+    fastestSpin = 0,
   ) {
     this.time = begin;
-    this.speed = comfortableSpeed(end - begin);
+    this.speed = comfortableSpeed(end - begin, fastestSpin);
   }
 
   get duration(): number {
@@ -37,12 +41,21 @@ export class Clock {
   }
 }
 
-/** Real time where a run takes a few seconds; else slow or quick motion by a power of ten, or twice or five times it. */
-export function comfortableSpeed(duration: number): number {
-  if (duration >= 2 && duration <= 20) return 1;
-  const wanted = (duration || 1) / kComfortableDuration;
-  const power = 10 ** Math.floor(Math.log10(wanted));
-  const mantissa = wanted / power;
+/**
+ * Real time where a run takes a few seconds; else slow or quick motion by a power of ten, or twice or five times it. Slower
+ * where something spins so fast (rad/s) that it would seem to stand, or to turn backward.
+ */
+export function comfortableSpeed(duration: number, fastestSpin = 0): number {
+  const isComfortable = duration >= 2 && duration <= 20;
+  const usual = isComfortable ? 1 : roundedDown((duration || 1) / kComfortableDuration);
+  if (fastestSpin * usual <= 2 * Math.PI * kTurnsToFollow) return usual;
+  return roundedDown(Math.max((2 * Math.PI * kTurnsToFollow) / fastestSpin, duration / kLongestDuration));
+}
+
+/** To 1, 2 or 5 times a power of ten. */
+function roundedDown(value: number): number {
+  const power = 10 ** Math.floor(Math.log10(value));
+  const mantissa = value / power;
   return Number(((mantissa >= 5 ? 5 : mantissa >= 2 ? 2 : 1) * power).toPrecision(1));
 }
 

@@ -10,9 +10,12 @@ export interface Report {
   failure?: string;
   start_time: number;
   end_time: number;
+  /** Name to value, in SI units. */
+  parameters: Record<string, number>;
   impacts: Impact[];
-  events: { time: number; event: string; direction: string }[];
+  events: SceneEvent[];
   warnings: string[];
+  statistics: Record<string, number>;
   /** How each body is at the end. */
   final: FinalState[];
   states: Record<string, number>;
@@ -30,12 +33,21 @@ export interface FinalState {
   angular_velocity: Vector;
 }
 
+/** An event that the scene has watched for. */
+export interface SceneEvent {
+  time: number;
+  event: string;
+  direction: string;
+}
+
 export interface Impact {
   time: number;
   body: string;
   with: string;
   kind: "hit" | "graze" | "rest" | "leave";
   point: Vector;
+  /** Unit, to the side that the body came from. */
+  normal: Vector;
   velocity_before: Vector;
   velocity_after: Vector;
 }
@@ -50,6 +62,8 @@ export type BodyShape =
 export interface BodyData {
   name: string;
   shape: BodyShape;
+  /** "#rrggbb", where the scene chooses it. */
+  color?: string;
   /** kg; null where there is none or where it changes. */
   mass: number | null;
   group: number;
@@ -95,13 +109,20 @@ export type ObstacleShape =
   /** Triangles: indices of three vertices each. `closed`: it encloses matter. */
   | { kind: "mesh"; vertices: Vector[]; triangles: Vector[]; closed: boolean };
 
+export interface ObstacleData {
+  name: string;
+  shape: ObstacleShape;
+  /** "#rrggbb", where the scene chooses it. */
+  color?: string;
+}
+
 export interface RunData {
   report: Report;
   /** The way in which orientations are carried; null where nothing turns. */
   orientation: string | null;
   bodies: BodyData[];
   states: { name: string; group: number; component: number }[];
-  obstacles: { name: string; shape: ObstacleShape }[];
+  obstacles: ObstacleData[];
   /** `pieces`: base64 of little-endian doubles, see `Track`. */
   groups: { dimension: number; pieces: string }[];
 }
@@ -119,6 +140,8 @@ export interface PageData {
   trajet: string;
   /** The number of a page that a server makes anew when its scene changes; 0: there is no such server. */
   live: number;
+  /** The scene as its author wrote it; empty where there is no file of it. */
+  scene_text?: string;
   runs?: RunData[];
   error?: SceneError;
 }

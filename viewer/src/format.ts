@@ -1,6 +1,3 @@
-import type { Impact } from "./data";
-import { length } from "./motion";
-
 /** A number with so many significant digits, no more than needed: 0.36, 12.5, 3.2e-7. */
 export function number(value: number, digits = 4): string {
   if (value === 0) return "0";
@@ -13,15 +10,8 @@ export function time(t: number, duration: number): string {
   return t.toFixed(decimals).replace("-", "−");
 }
 
-/** The exact time of an impact, to ten digits as in the program's summary. */
+/** The exact time of an impact or event, to ten digits as in the program's summary. */
 export const exactTime = (t: number): string => `${number(t, 10)} s`;
-
-export function impact(each: Impact): string {
-  const before = length(each.velocity_before);
-  const after = length(each.velocity_after);
-  const speed = before === after ? `${number(before)} m/s` : `${number(before)} → ${number(after)} m/s`;
-  return `${each.kind} ${each.with} at ${number(each.time, 6)} s, ${speed}`;
-}
 
 /** 1, 2 or 5 times a power of ten, about `value`: a spacing for a grid. */
 export function roundSpacing(value: number): number {

@@ -15,7 +15,7 @@ const page = document.getElementById("page")!;
 const data = JSON.parse(document.getElementById("trajet-data")!.textContent!) as PageData | null;
 applyTheme(initialTheme());
 if (data?.error) page.append(errorPage(data.error));
-else if (data?.runs) window.trajet = new App(page, data.runs, data.live ? keptTime() : undefined);
+else if (data?.runs) window.trajet = new App(page, data.runs, data.live ? keptTime() : undefined, data.scene_text);
 else page.append(element("main", { class: "error" }, element("p", {}, "This page holds no run.")));
 if (data?.live) void reloadWhenChanged(String(data.live));
 

@@ -1,11 +1,11 @@
-import type { BodyData, Impact, RunData, Vector } from "./data";
+import type { BodyData, RunData, Vector } from "./data";
+import { type Moment, momentsOf } from "./moments";
 import { startTrack } from "./start";
 import { Track } from "./track";
+import { dot, length, sum } from "./vectors";
 
 /** How a body stands at one time: unit quaternion (w, x, y, z), from the body's frame to the world. */
 export type Quaternion = [number, number, number, number];
-
-export const length = (v: Vector): number => Math.hypot(v[0], v[1], v[2]);
 
 /** One body of a run, at any time. */
 export class BodyMotion {
@@ -30,6 +30,11 @@ export class BodyMotion {
   }
   acceleration(t: number, piece = this.track.pieceAt(t)): Vector {
     return this.track.vector(piece, this.data.velocity, t, 1);
+  }
+
+  /** Of the named point at `p` in the body's frame. */
+  pointPosition(p: Vector, t: number, piece = this.track.pieceAt(t)): Vector {
+    return sum(this.position(t, piece), rotated(this.orientation(t, piece), p));
   }
 
   orientation(t: number, piece = this.track.pieceAt(t)): Quaternion {
@@ -98,8 +103,6 @@ export class BodyMotion {
   }
 }
 
-const dot = (a: Vector, b: Vector): number => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-
 /** Hamilton's product a b. */
 export function product(a: Quaternion, b: Quaternion): Quaternion {
   return [
@@ -154,6 +157,8 @@ export class Run {
   readonly states: { name: string; value: (t: number, piece?: number) => number; track: Track }[];
   readonly begin: number;
   readonly end: number;
+  /** Its impacts and events, in the order of time. */
+  readonly moments: Moment[];
 
   constructor(readonly data: RunData) {
     this.name = data.report.method;
@@ -172,10 +177,19 @@ export class Run {
     });
     this.begin = Math.min(data.report.start_time, data.report.end_time);
     this.end = Math.max(data.report.start_time, data.report.end_time);
+    this.moments = momentsOf(data.report);
   }
 
-  get impacts(): Impact[] {
-    return this.data.report.impacts;
+  /** rad/s; of all bodies at the times looked at, which are some hundreds. */
+  get fastestSpin(): number {
+    const kTimes = 400;
+    let most = 0;
+    for (const body of this.bodies.filter(({ turns }) => turns))
+      for (let i = 0; i <= kTimes; ++i) {
+        const size = length(body.angularVelocity(this.begin + ((this.end - this.begin) * i) / kTimes));
+        if (size > most && Number.isFinite(size)) most = size;
+      }
+    return most;
   }
   body(name: string): BodyMotion | undefined {
     return this.bodies.find((body) => body.name === name);

@@ -3,55 +3,29 @@ import "uplot/dist/uPlot.min.css";
 import { readableRange, textRoom, ticksBetween, tickTexts } from "./axis";
 import { element } from "./dom";
 import * as format from "./format";
+import { isZero, type Quantity } from "./curves";
 import type { Run } from "./motion";
-import { isZero, type Quantity, quantitiesOf } from "./quantities";
-import { jumpsOf, samplingTimes } from "./sampling";
+import { dashOf, PlotCaption, widthOf } from "./plot_caption";
+import { drawMoments } from "./plot_moments";
+import { quantitiesOf } from "./quantities";
+import { tabulate } from "./tabulate";
 import { cssColor } from "./theme";
-import type { Track } from "./track";
 
 const kHeight = 150;
 /** Against the times themselves: double precision tells no more. */
 const kShortestRange = 1e-12;
-/** Of the first run, and of those compared with it. */
-const kDashes: (number[] | undefined)[] = [undefined, [7, 4], [2, 3], [10, 3, 2, 3], [4, 8]];
-const dashOf = (run: number): number[] | undefined => (run === 0 ? undefined : kDashes[1 + ((run - 1) % 4)]);
 
-/** Curves on a common time axis: evaluated in the range that is shown, so that zooming in shows more. */
-function tabulate(quantity: Quantity, from: number, to: number, count: number): uPlot.AlignedData {
-  const tables = quantity.curves.map((curve) => {
-    const samples = samplingTimes(curve.track, jumpsOfTrack(curve.track), from, to, count);
-    const times = samples.map(({ t }) => t);
-    const values = samples.map(({ t, piece }) => {
-      const value = curve.value(t, piece);
-      return Number.isFinite(value) ? value : null;
-    });
-    return [times, values] as [number[], (number | null)[]];
-  });
-  const isShared = quantity.curves.every((curve) => curve.track === quantity.curves[0].track);
-  if (isShared) return [tables[0][0], ...tables.map(([, values]) => values)];
-  return joinByTime(tables);
+interface Plot {
+  quantity: Quantity;
+  caption: PlotCaption;
+  plot: uPlot;
 }
 
-/** Tables of different times as one; where a table has no row it has a gap that lines go over. */
-function joinByTime(tables: [number[], (number | null)[]][]): uPlot.AlignedData {
-  const rows = tables
-    .flatMap(([times, values], column) => times.map((t, i) => ({ t, column, i, value: values[i] })))
-    .sort((a, b) => a.t - b.t || a.column - b.column || a.i - b.i);
-  const columns = tables.map(() => new Array<number | null | undefined>(rows.length).fill(undefined));
-  rows.forEach(({ column, value }, row) => (columns[column][row] = value));
-  return [rows.map(({ t }) => t), ...columns] as uPlot.AlignedData;
-}
-
-const jumpCache = new WeakMap<Track, number[]>();
-function jumpsOfTrack(track: Track): number[] {
-  let pieces = jumpCache.get(track);
-  if (!pieces) jumpCache.set(track, (pieces = jumpsOf(track)));
-  return pieces;
-}
-
-/** A stack of plots in step with the timeline. */
+/**
+ * A stack of plots in step with the timeline. `hover` is told the time that the pointer rests on, and null when it leaves.
+ */
 export class Plots {
-  private plots: { quantity: Quantity; plot: uPlot }[] = [];
+  private plots: Plot[] = [];
   private from: number;
   private to: number;
   private time: number;
@@ -61,6 +35,7 @@ export class Plots {
     private readonly runs: readonly Run[],
     private body: string | null,
     private readonly seek: (t: number) => void,
+    private readonly hover: (t: number | null) => void,
   ) {
     this.from = Math.min(...runs.map((run) => run.begin));
     this.to = Math.max(...runs.map((run) => run.end));
@@ -84,7 +59,10 @@ export class Plots {
 
   setTime(t: number): void {
     this.time = t;
-    for (const { plot } of this.plots) this.placeCursor(plot);
+    for (const { plot, caption } of this.plots) {
+      this.placeLine(plot);
+      caption.setTime(t);
+    }
   }
 
   /** Shows this part of the time in every plot. */
@@ -96,18 +74,19 @@ export class Plots {
       plot.setData(tabulate(quantity, from, to, this.sampleCount()), false);
       plot.setScale("x", { min: from, max: to });
     }
-    this.setTime(this.time);
   }
 
   private sampleCount(): number {
     return Math.max(200, 2 * this.container.clientWidth);
   }
 
-  private placeCursor(plot: uPlot): void {
-    const isInside = this.time >= this.from && this.time <= this.to;
-    plot.over.querySelector<HTMLElement>(".now")!.style.transform = isInside
-      ? `translateX(${plot.valToPos(this.time, "x")}px)`
-      : "translateX(-10px)";
+  /** The line at the time that is shown; none where that is outside. */
+  private placeLine(plot: uPlot): void {
+    const line = plot.over.querySelector<HTMLElement>(".now");
+    if (!line) return;
+    const { min, max } = plot.scales.x;
+    line.hidden = !(this.time >= min! && this.time <= max!);
+    if (!line.hidden) line.style.transform = `translateX(${plot.valToPos(this.time, "x")}px)`;
   }
 
   private build(): void {
@@ -122,10 +101,12 @@ export class Plots {
     }
     const quantities = quantitiesOf(this.runs, this.body);
     const zero = quantities.filter(({ curves }) => isZero(curves));
+    const noise = quantities.filter((each) => !zero.includes(each) && isZero(each.curves, each.least));
     for (const quantity of quantities) {
-      if (zero.includes(quantity)) continue;
+      if (zero.includes(quantity) || noise.includes(quantity)) continue;
       const figure = document.createElement("figure");
-      figure.append(caption(quantity));
+      const caption = new PlotCaption(quantity);
+      figure.append(caption.root);
       this.container.append(figure);
       const plot = new uPlot(
         this.options(quantity, wholeFrom, wholeTo),
@@ -137,10 +118,12 @@ export class Plots {
       plot.over.append(now);
       plot.over.setAttribute("role", "img");
       plot.over.setAttribute("aria-label", `${quantity.title} against time`);
-      this.plots.push({ quantity, plot });
-      this.placeCursor(plot);
+      this.plots.push({ quantity, caption, plot });
     }
-    if (zero.length > 0) this.note("zero", `Zero throughout: ${zero.map(({ title }) => title).join(", ")}.`);
+    const list = (some: Quantity[]): string => some.map(({ title }) => title).join(", ");
+    if (zero.length > 0) this.note("zero", `Zero throughout: ${list(zero)}.`);
+    if (noise.length > 0) this.note("zero", `Zero but for rounding: ${list(noise)}.`);
+    this.setTime(this.time);
   }
 
   private note(className: string, text: string): void {
@@ -177,11 +160,11 @@ export class Plots {
       ],
       series: [
         {},
-        ...quantity.curves.map(({ label, color, run }) => ({
+        ...quantity.curves.map(({ label, color }, i) => ({
           label,
           stroke: color,
-          width: run > 0 ? 1.25 : 1.75,
-          dash: dashOf(run),
+          width: widthOf(quantity, i),
+          dash: dashOf(quantity, i),
           points: { show: false },
           pxAlign: 0,
         })),
@@ -202,6 +185,16 @@ export class Plots {
               this.seek(Math.min(wholeTo, Math.max(wholeFrom, t)));
             }),
         ],
+        drawAxes: [(plot) => drawMoments(plot, this.runs[0].moments)],
+        // a change of scale or size is carried out later than it is asked for
+        draw: [(plot) => this.placeLine(plot)],
+        setCursor: [
+          (plot) => {
+            const { left } = plot.cursor;
+            const isInside = left !== undefined && left !== null && left >= 0 && plot.over.matches(":hover");
+            this.hover(isInside ? Math.min(wholeTo, Math.max(wholeFrom, plot.posToVal(left, "x"))) : null);
+          },
+        ],
         setSelect: [
           (plot) => {
             if (plot.select.width < 4) return;
@@ -214,29 +207,4 @@ export class Plots {
       },
     };
   }
-}
-
-function caption(quantity: Quantity): HTMLElement {
-  const element = document.createElement("figcaption");
-  const title = document.createElement("span");
-  title.textContent = quantity.unit ? `${quantity.title} [${quantity.unit}]` : quantity.title;
-  if (quantity.color) title.style.setProperty("--mark", quantity.color);
-  title.className = quantity.color ? "quantity marked" : "quantity";
-  element.append(title);
-  const key = (text: string, color: string, dash: number[] | undefined): void => {
-    const line = `<svg viewBox="0 0 24 4" aria-hidden="true"><path d="M0 2H24" stroke="${color}" stroke-dasharray="${dash ?? ""}"/></svg>`;
-    const item = document.createElement("span");
-    item.className = "curve";
-    item.innerHTML = line;
-    item.append(text);
-    element.append(item);
-  };
-  // colours tell the components, dashes the runs; a single quantity has the colours of the runs
-  for (const { label, color } of quantity.curves.filter(({ run, label }) => run === 0 && label))
-    key(label, color, undefined);
-  const runs = new Map(quantity.curves.map((curve) => [curve.run, curve]));
-  if (runs.size > 1)
-    for (const [run, { method, label, color }] of runs)
-      key(method, label ? cssColor("--text-soft") : color, dashOf(run));
-  return element;
 }

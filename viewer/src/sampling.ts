@@ -1,6 +1,7 @@
 import type { Vector } from "./data";
 import type { BodyMotion } from "./motion";
 import type { Track } from "./track";
+import { length } from "./vectors";
 
 const distance = (a: Vector, b: Vector): number => Math.hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
 
@@ -16,17 +17,19 @@ const kMostLinesOfPiece = 256;
 const kFewestLines = 256;
 
 /**
- * The way of a body as straight lines, passed at constant speed each, that stay within about twice `tolerance` (m) of
- * it at all times.
+ * The way of a body's centre, or of its point at `p` in its own frame, as straight lines, passed at constant speed each,
+ * that stay within about twice `tolerance` (m) of it at all times.
  *
  * A chord over the time h leaves a curve of acceleration a by a h^2 / 8 at most. Pieces that are short beside the
  * tolerance are passed over; of the many points of a motion in short steps only those are kept that a line would miss.
  */
-export function trailOf(body: BodyMotion, tolerance: number): Trail {
+export function trailOf(body: BodyMotion, tolerance: number, p?: Vector): Trail {
   const { track } = body;
-  const trail: Trail = { times: [track.begin], points: [body.position(track.begin, 0)] };
+  const place = (t: number, piece: number): Vector =>
+    p ? body.pointPosition(p, t, piece) : body.position(t, piece);
+  const trail: Trail = { times: [track.begin], points: [place(track.begin, 0)] };
   const add = (t: number, piece: number, isForced: boolean): void => {
-    const point = body.position(t, piece);
+    const point = place(t, piece);
     if (!isForced && distance(point, trail.points[trail.points.length - 1]) < tolerance) return;
     trail.times.push(t);
     trail.points.push(point);
@@ -35,11 +38,15 @@ export function trailOf(body: BodyMotion, tolerance: number): Trail {
     add(track.end, 0, true);
     return trail;
   }
+  const around = p ? length(p) : 0;
+  const second = (t: number, piece: number): number => {
+    const centre = length(track.vector(piece, body.data.position, t, 2));
+    return around > 0 ? centre + around * length(body.angularVelocity(t, piece)) ** 2 : centre;
+  };
   for (let piece = 0; piece < track.count; ++piece) {
     const begin = track.pieceBegin(piece);
     const duration = track.pieceEnd(piece) - begin;
-    const second = (t: number): number => Math.hypot(...track.vector(piece, body.data.position, t, 2));
-    const bend = Math.max(...[0, 0.25, 0.5, 0.75, 1].map((part) => second(begin + part * duration)));
+    const bend = Math.max(...[0, 0.25, 0.5, 0.75, 1].map((part) => second(begin + part * duration, piece)));
     const wanted = duration * Math.max(Math.sqrt(bend / (8 * tolerance)), kFewestLines / (track.end - track.begin));
     const lines = Math.min(kMostLinesOfPiece, Math.max(1, Math.ceil(wanted)));
     const turns = piece + 1 === track.count || jumps(track, piece, body.data.velocity, 3);

@@ -1,13 +1,14 @@
 import * as THREE from "three";
-import type { ObstacleShape, RunData, Vector } from "./data";
-import { number, roundSpacing } from "./format";
-import type { LabelSpec, Side } from "./labels";
+import type { ObstacleData, ObstacleShape, Vector } from "./data";
+import { roundSpacing } from "./format";
+import type { LabelSpec } from "./labels";
+import { type Grid, gridLabels, heightScale } from "./scales";
 import { vector } from "./shapes";
 import { cssColor } from "./theme";
 import { isSeenAlongX, type ViewFrame } from "./view_frame";
 
-/** A plane with a grid on it, and what its squares measure. */
-interface Ground {
+/** A plane with a grid on it, in the world. `isSolid`: it is an obstacle, not a scale only. */
+export interface Ground {
   point: THREE.Vector3;
   normal: THREE.Vector3;
   isSolid: boolean;
@@ -17,6 +18,11 @@ interface Ground {
 export class Scenery {
   readonly group = new THREE.Group();
   readonly labels: LabelSpec[] = [];
+  readonly grounds: Ground[] = [];
+  /** Obstacles that are no planes: what casts shadows. */
+  readonly solids: THREE.Mesh[] = [];
+  /** Where grid and scale of height end: the picture is to hold it. */
+  readonly corners: THREE.Vector3[] = [];
   /** m; the side of a square of the grid. */
   readonly spacing: number;
   /** Of obstacles that are closed, which are seen from outside, and of flat ones. */
@@ -28,7 +34,7 @@ export class Scenery {
 
   constructor(
     private readonly frame: ViewFrame,
-    obstacles: RunData["obstacles"],
+    obstacles: readonly ObstacleData[],
   ) {
     const size = frame.box.getSize(new THREE.Vector3());
     this.spacing = roundSpacing(Math.max(size.x, size.y, size.z) / 10);
@@ -47,21 +53,22 @@ export class Scenery {
     this.edges = new THREE.LineBasicMaterial();
     this.lines = new THREE.LineBasicMaterial({ transparent: true, opacity: 0.9 });
 
-    const planes: Ground[] = [];
-    for (const { name, shape } of obstacles) {
-      if (shape.kind === "plane") planes.push({ point: vector(shape.point), normal: vector(shape.normal), isSolid: true });
-      else this.addObstacle(name, shape);
+    for (const obstacle of obstacles) {
+      const { shape } = obstacle;
+      if (shape.kind === "plane")
+        this.grounds.push({ point: vector(shape.point), normal: vector(shape.normal).normalize(), isSolid: true });
+      else this.addObstacle(obstacle, shape);
     }
     // Without a plane the grid lies beneath everything, as a scale only.
-    if (planes.length === 0) {
+    if (this.grounds.length === 0) {
       const middle = frame.box.getCenter(new THREE.Vector3());
-      planes.push({
+      this.grounds.push({
         point: new THREE.Vector3(middle.x, middle.y, frame.box.min.z),
         normal: new THREE.Vector3(0, 0, 1),
         isSolid: false,
       });
     }
-    planes.forEach((plane, index) => this.addGround(plane, index === 0));
+    this.grounds.forEach((ground, index) => this.addGround(ground, index === 0));
   }
 
   applyTheme(): void {
@@ -71,11 +78,13 @@ export class Scenery {
     this.lines.color.set(cssColor("--grid"));
   }
 
-  private addObstacle(name: string, shape: Exclude<ObstacleShape, { kind: "plane" }>): void {
+  private addObstacle({ name, color }: ObstacleData, shape: Exclude<ObstacleShape, { kind: "plane" }>): void {
     const geometry = obstacleGeometry(shape);
     const { scale } = this.frame;
     const isClosed = shape.kind === "sphere" || shape.kind === "box" || (shape.kind === "mesh" && shape.closed);
-    const mesh = new THREE.Mesh(geometry, isClosed ? this.closed : this.flat);
+    const material = isClosed ? this.closed : this.flat;
+    const mesh = new THREE.Mesh(geometry, color ? material.clone() : material);
+    if (color) mesh.material.color.set(color);
     mesh.scale.setScalar(scale);
     const center: Vector =
       shape.kind === "triangle" ? shape.corners[0] : shape.kind === "mesh" ? shape.vertices[0] : shape.center;
@@ -84,6 +93,7 @@ export class Scenery {
     mesh.add(outline);
     mesh.name = name;
     this.group.add(mesh);
+    this.solids.push(mesh);
     geometry.computeBoundingBox();
     const top = geometry.boundingBox!.max.z * scale;
     this.labels.push({
@@ -94,9 +104,8 @@ export class Scenery {
     });
   }
 
-  /** A rectangle of whole squares under the picture, with numbers along two sides if `isScale`. */
-  private addGround({ point, normal, isSolid }: Ground, isScale: boolean): void {
-    const n = normal.clone().normalize();
+  /** A rectangle of whole squares under the picture, with scales if `isScale`. */
+  private addGround({ point, normal: n, isSolid }: Ground, isScale: boolean): void {
     const isLevel = Math.abs(n.z) > 0.999;
     const u = isLevel ? new THREE.Vector3(1, 0, 0) : new THREE.Vector3(-n.y, n.x, 0).normalize();
     const v = n.clone().cross(u);
@@ -110,7 +119,7 @@ export class Scenery {
         const value = p.sub(origin).dot(axis);
         [low, high] = [Math.min(low, value), Math.max(high, value)];
       }
-      return [Math.floor(low / this.spacing - 0.5), Math.ceil(high / this.spacing + 0.5)];
+      return [Math.floor(low / this.spacing - 0.25), Math.ceil(high / this.spacing + 0.25)];
     };
     const [u0, u1] = range(u);
     const [v0, v1] = range(v);
@@ -126,16 +135,19 @@ export class Scenery {
       const corners = [at(u0, v0), at(u1, v0), at(u1, v1), at(u0, v0), at(u1, v1), at(u0, v1)];
       this.group.add(new THREE.Mesh(new THREE.BufferGeometry().setFromPoints(corners), this.ground));
     }
-    if (!isScale) return;
-    const label = (i: number, j: number, value: number, unit: string, side: Side): void => {
-      const text = `${number(value * this.spacing, 6)}${unit}`;
-      this.labels.push({ at: at(i, j), text, className: "label-scale", priority: 0, side });
-    };
-    // every second line, zero among them, in front of the picture and on its right
+    this.corners.push(at(u0, v0), at(u1, v0), at(u0, v1), at(u1, v1));
+    if (isScale) this.addScales({ spacing: this.spacing, u0, u1, v0, v1, at, names: isLevel ? ["x", "y"] : null }, point.z);
+  }
+
+  /** `bottom`: m, how high the grid lies. */
+  private addScales(grid: Grid, bottom: number): void {
     const alongX = isSeenAlongX(this.frame.box);
-    for (let i = u0 + (u0 & 1); i <= u1; i += 2)
-      label(i, alongX ? v1 : v0, i, i + 2 > u1 ? " m" : "", alongX ? "right" : "below");
-    for (let j = v0 + (v0 & 1); j <= v1; j += 2) label(u1, j, j, j + 2 > v1 ? " m" : "", alongX ? "below" : "right");
+    this.labels.push(...gridLabels(grid, alongX));
+    const height = grid.names && heightScale(grid, alongX, bottom, this.frame.box.max.z, this.frame.scale);
+    if (!height) return;
+    this.group.add(new THREE.LineSegments(new THREE.BufferGeometry().setFromPoints(height.lines), this.edges));
+    this.labels.push(...height.labels);
+    this.corners.push(height.top);
   }
 }
 

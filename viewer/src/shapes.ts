@@ -69,9 +69,13 @@ function coloured(positions: number[], colors: number[]): THREE.BufferGeometry {
   return geometry;
 }
 
+/** Of a ball of which there are few, and of one among many. */
+const kBallSegments: [number, number] = [48, 32];
+const kSmallBallSegments: [number, number] = [20, 14];
+
 /** A ball of unit radius whose octants differ, so that one sees it turn. */
-function octantBall(light: THREE.Color, dark: THREE.Color): THREE.BufferGeometry {
-  const sphere = new THREE.SphereGeometry(1, 48, 32).toNonIndexed();
+function octantBall(light: THREE.Color, dark: THREE.Color, segments: [number, number]): THREE.BufferGeometry {
+  const sphere = new THREE.SphereGeometry(1, ...segments).toNonIndexed();
   const position = sphere.getAttribute("position");
   const colors: number[] = [];
   for (let i = 0; i < position.count; i += 3) {
@@ -101,19 +105,33 @@ export function reach({ shape, points }: BodyData): number {
   }
 }
 
-/** The body in its own frame, in metres; null for a point. `color` is its own, `turns` whether its spin shall show. */
-export function bodyGeometry(shape: BodyShape, color: string, turns: boolean): THREE.BufferGeometry | null {
+/** The other colour of a pattern: strong on a body that turns, a shade of its own on one that does not. */
+function patternColor(own: THREE.Color, turns: boolean): THREE.Color {
+  const { l } = own.getHSL({ h: 0, s: 0, l: 0 });
+  const other = new THREE.Color(l > 0.75 ? "#3a4048" : "#f4f4f0");
+  return turns ? other : own.clone().lerp(other, 0.22);
+}
+
+/**
+ * The body in its own frame, in metres; null for a point. `color` is its own, `turns` whether its spin shall show,
+ * `isOneOfMany` whether it is too small a part of the picture for fine detail.
+ */
+export function bodyGeometry(
+  shape: BodyShape,
+  color: string,
+  turns: boolean,
+  isOneOfMany = false,
+): THREE.BufferGeometry | null {
   const own = new THREE.Color(color);
-  const white = new THREE.Color("#f4f4f0");
   switch (shape.kind) {
     case "point":
       return null;
     case "sphere": {
-      const geometry = octantBall(turns ? white : own, own);
+      const geometry = octantBall(patternColor(own, turns), own, isOneOfMany ? kSmallBallSegments : kBallSegments);
       return geometry.scale(shape.radius, shape.radius, shape.radius);
     }
     case "soccer-ball": {
-      const geometry = polyhedron(soccerBallFaces(), white, new THREE.Color("#1d1d22"));
+      const geometry = polyhedron(soccerBallFaces(), new THREE.Color("#f4f4f0"), new THREE.Color("#1d1d22"));
       return geometry.scale(shape.radius, shape.radius, shape.radius);
     }
     case "mesh": {

@@ -1,25 +1,40 @@
 import * as THREE from "three";
-import { OrbitControls } from "three/addons/controls/OrbitControls.js";
-import { Actor, arrowPixels, dots, setOpacity, type Visibility } from "./actor";
-import type { Impact } from "./data";
+import { Actor, type Visibility } from "./actor";
+import { arrowPixels } from "./arrows";
+import { CameraRig } from "./camera_rig";
 import { element } from "./dom";
+import { setOpacity } from "./drawing";
 import * as format from "./format";
-import { type Area, kBodyPixels, Labels, type LabelSpec } from "./labels";
+import { ImpactMarks } from "./impact_marks";
+import { type Area, Labels, type LabelSpec } from "./labels";
+import { momentText } from "./moments";
 import type { Run } from "./motion";
+import { type Target, watchPointer } from "./pointer";
 import { Scenery } from "./scenery";
+import { shadowedGround, Shadows } from "./shadows";
 import { colorOf, cssColor } from "./theme";
-import { cameraPlace, isSeenAlongX, kViewSize, sceneBox, ViewFrame } from "./view_frame";
+import { Triad } from "./triad";
+import { isSeenAlongX, kViewSize, sceneBox, ViewFrame } from "./view_frame";
 
-/** Impacts beyond so many get no text in the picture; the list has them all. */
-const kMostImpactLabels = 60;
 /** A ghost is seen through. */
 const kGhostOpacity = 0.45;
 /** From one body to the next where they stand side by side, in the reach of the largest; how far a point reaches. */
 const kBodySpacing = 2.4;
 const kPointReach = 0.002 * kViewSize;
-const kFieldOfViewDegrees = 35;
-/** How much wider the picture is than the whole scene in it. */
-const kMargin = 1.12;
+/** How far from a body that is followed the camera is, in its reach, if the whole scene is farther. */
+const kFollowReaches = 14;
+/** Of more bodies only the chosen one has arrows, axes and a trail, and each is drawn with less detail. */
+const kManyBodies = 8;
+const kBodiesInDetail = 50;
+/** px around the pointer in which something is pointed at. */
+const kPointerPixels = 9;
+
+/** What the picture tells the page: that it is to be drawn anew, and what the user has chosen in it. */
+export interface StageEvents {
+  changed: () => void;
+  chooseBody: (name: string) => void;
+  seek: (t: number) => void;
+}
 
 /** The picture in space. */
 export class Stage {
@@ -31,78 +46,86 @@ export class Stage {
   private showsAll = false;
   private readonly renderer: THREE.WebGLRenderer;
   private readonly scene = new THREE.Scene();
-  private readonly camera = new THREE.PerspectiveCamera(kFieldOfViewDegrees, 1, 0.01, 1000);
-  private readonly controls: OrbitControls;
+  private readonly rig: CameraRig;
   private readonly frame: ViewFrame;
   private readonly scenery: Scenery;
+  private readonly shadows: Shadows | null;
   private readonly labels: Labels;
+  private readonly triad = new Triad();
   private readonly scale: HTMLElement;
   private readonly runGroups: THREE.Group[] = [];
   private readonly actors: Actor[][] = [];
+  private readonly impacts: ImpactMarks[] = [];
+  private chosenBody: string | null;
   private followed: Actor | null = null;
   private readonly followedPlace = new THREE.Vector3();
   /** px; what lies over the picture beside the texts. */
   private occupied: Area[] = [];
-  private highlighted: Impact | null = null;
   private time: number;
 
-  /** `changed` is called when the user has turned or moved the picture. Throws where the browser has no WebGL. */
+  /** Throws where the browser has no WebGL. */
   constructor(
     private readonly container: HTMLElement,
     private readonly runs: readonly Run[],
-    changed: () => void,
+    private readonly events: StageEvents,
   ) {
-    this.renderer = new THREE.WebGLRenderer({ antialias: true });
+    this.renderer = new THREE.WebGLRenderer({ antialias: true, stencil: true });
     this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
     // Asking after errors would make the page wait for every program of the graphics processor.
     this.renderer.debug.checkShaderErrors = false;
     const { domElement } = this.renderer;
     domElement.setAttribute("role", "img");
     domElement.setAttribute("aria-label", "The motion in space. Drag to turn, scroll to zoom.");
-    container.append(domElement);
     const layer = element("div", { class: "labels", "aria-hidden": "true" });
-    container.append(layer);
     this.labels = new Labels(layer);
     this.scale = element("span", { class: "scale" });
-    container.append(this.scale);
+    container.append(domElement, layer, this.scale, this.triad.root);
 
     this.frame = new ViewFrame(sceneBox(runs));
     this.time = runs[0].begin;
-    this.camera.up.set(0, 0, 1);
-    this.controls = new OrbitControls(this.camera, domElement);
-    this.controls.addEventListener("change", changed);
-    this.controls.addEventListener("start", () => (this.showsAll = false));
-    this.scene.add(new THREE.HemisphereLight("#ffffff", "#8a8a80", 2.2));
-    const sun = new THREE.DirectionalLight("#ffffff", 1.6);
-    sun.position.set(-4, -6, 9);
-    this.scene.add(sun);
+    this.chosenBody = runs[0].bodies[0]?.name ?? null;
+    this.addLights();
     this.scenery = new Scenery(this.frame, runs[0].data.obstacles);
     this.scene.add(this.scenery.group);
     this.scale.textContent = `squares of ${format.number(this.scenery.spacing)} m`;
+    this.rig = new CameraRig(domElement, this.frame, this.scenery.grounds);
+    this.rig.controls.addEventListener("change", events.changed);
+    this.rig.controls.addEventListener("start", () => (this.showsAll = false));
     runs.forEach((run, index) => this.addRun(run, index));
+    const ground = shadowedGround(this.scenery.grounds);
+    this.shadows =
+      ground && new Shadows(this.frame, this.scenery.spacing, ground, this.scenery.solids, this.actors.flat());
+    if (this.shadows) this.scene.add(this.shadows.group);
+    watchPointer(container, domElement, (x, y) => this.targetAt(x, y));
     this.applyTheme();
     this.resize();
     this.showAll();
     // All programs of the graphics processor begin to be made here, beside the rest of the page; a frame waits for each.
-    this.renderer.compile(this.scene, this.camera);
+    this.renderer.compile(this.scene, this.rig.camera);
+  }
+
+  private addLights(): void {
+    this.scene.add(new THREE.HemisphereLight("#ffffff", "#8a8a80", 2.2));
+    const sun = new THREE.DirectionalLight("#ffffff", 1.6);
+    sun.position.set(-4, -6, 9);
+    this.scene.add(sun);
   }
 
   private addRun(run: Run, index: number): void {
     const group = new THREE.Group();
+    const isOneOfMany = run.bodies.length > kBodiesInDetail;
     this.actors.push(
       run.bodies.map((body, i) => {
-        const color = colorOf(this.runs.length, index, i);
-        const actor = new Actor(body, this.frame, color);
+        const own = this.runs.length > 1 ? undefined : body.data.color;
+        const color = own ?? colorOf(this.runs.length, index, i);
+        const actor = new Actor(body, this.frame, { color, hasPointColors: this.runs.length === 1, isOneOfMany });
         group.add(actor.group);
         return actor;
       }),
     );
-    const impacts = run.impacts.map((impact) => this.frame.toView(impact.point));
-    if (impacts.length > 0) {
-      const markers = dots(impacts, "#dc2626", 10);
-      markers.name = "impacts";
-      group.add(markers);
-    }
+    const marks = new ImpactMarks(run, this.frame);
+    this.impacts.push(marks);
+    group.add(marks.dots);
     this.scene.add(group);
     this.runGroups.push(group);
     if (index > 0) setOpacity(group, kGhostOpacity);
@@ -113,6 +136,11 @@ export class Stage {
     this.isSideBySide = isSideBySide;
     this.runGroups.forEach((group, run) => setOpacity(group, run === 0 || isSideBySide ? 1 : kGhostOpacity));
     this.fit();
+  }
+
+  /** The body of which the plots are. */
+  choose(body: string): void {
+    this.chosenBody = body;
   }
 
   /** From a run to the next, in the drawing: the scene's depth, or, where a body is followed, its width. */
@@ -152,14 +180,14 @@ export class Stage {
   applyTheme(): void {
     this.scene.background = new THREE.Color(cssColor("--stage"));
     this.scenery.applyTheme();
+    if (this.shadows) this.shadows.opacity = Number(cssColor("--shadow"));
   }
 
   resize(): void {
     const { clientWidth: width, clientHeight: height } = this.container;
     if (width === 0 || height === 0) return;
     this.renderer.setSize(width, height);
-    this.camera.aspect = width / height;
-    this.camera.updateProjectionMatrix();
+    this.rig.resize(width, height);
     if (this.showsAll) this.showAll();
     else this.refreshLabels();
   }
@@ -168,12 +196,6 @@ export class Stage {
   fit(): void {
     if (this.followed) this.follow(this.followedBody);
     else this.showAll();
-  }
-
-  /** Tangents of the half angles that the picture spans. */
-  private get halfAngles(): { horizontal: number; vertical: number } {
-    const vertical = Math.tan(THREE.MathUtils.degToRad(kFieldOfViewDegrees / 2));
-    return { horizontal: vertical * this.camera.aspect, vertical };
   }
 
   /** The whole scene in the picture, the way going from left to right. */
@@ -186,21 +208,22 @@ export class Stage {
       .getSize(new THREE.Vector3())
       .multiplyScalar(0.5 * this.frame.scale)
       .add(middle);
-    const away = isSeenAlongX(this.frame.box) ? new THREE.Vector3(1, -0.35, 0.42) : new THREE.Vector3(-0.35, -1, 0.42);
-    away.normalize();
-    const { horizontal, vertical } = this.halfAngles;
-    const inside = { horizontal: horizontal / kMargin, vertical: vertical / kMargin };
     const signs = [-1, 1];
     const corners = signs.flatMap((x) =>
       signs.flatMap((y) => signs.map((z) => new THREE.Vector3(x, y, z).multiply(half).add(middle))),
     );
-    // Arrows are as long as the picture lets them be, which the corners alone tell well enough.
-    const longest = arrowPixels(this.pictureSize) * this.pixelAt(cameraPlace(corners, middle, away, inside).distance);
-    const points = [...corners, ...this.actors.flat().flatMap((actor) => actor.arrowTips(longest))];
-    const { target, distance } = cameraPlace(points, middle, away, inside);
-    this.controls.target.copy(target);
-    this.camera.position.copy(target).addScaledVector(away, distance);
-    this.controls.update();
+    corners.push(...this.scenery.corners);
+    const [x, y] = [new THREE.Vector3(1, 0, 0), new THREE.Vector3(0, 1, 0)];
+    const [side, end] = isSeenAlongX(this.frame.box) ? [x, y.negate()] : [y.negate(), x.negate()];
+    // of many bodies few have arrows
+    const pointing = this.actors.flatMap((actors) => (actors.length > kManyBodies ? actors.slice(0, 1) : actors));
+    this.rig.frame(
+      (arrow) => (arrow > 0 ? [...corners, ...pointing.flatMap((actor) => actor.arrowTips(arrow))] : corners),
+      middle,
+      side,
+      end,
+      arrowPixels(this.pictureSize),
+    );
   }
 
   /** px; the smaller side of the picture. */
@@ -208,30 +231,41 @@ export class Stage {
     return Math.min(this.container.clientWidth, this.container.clientHeight);
   }
 
-  /** The size of a pixel of the screen so far from the camera, in the drawing. */
-  private pixelAt(distance: number): number {
-    return (2 * this.halfAngles.vertical * distance) / this.container.clientHeight;
-  }
-
-  /** Keeps a body of the first run, and those that stand beside it, in the middle, near. */
+  /** Keeps a body of the first run, and those that stand beside it, in the middle, near, and its arrows in the picture. */
   follow(body: string | null): void {
     const actor = this.actors[0]?.find((each) => each.motion.name === body);
     if (!actor) return;
     this.followed = actor;
     this.showsAll = false;
     this.arrange();
-    const { horizontal } = this.halfAngles;
-    const reach = this.followedReach;
-    const halfWidth = 0.5 * this.spreadOfAll.length() + 1.6 * reach;
-    const away = this.camera.position.clone().sub(this.controls.target);
+    const away = this.rig.camera.position.clone().sub(this.rig.controls.target);
     // Seen at a slant, what stands nearer would look larger.
     if (this.isSideBySide) away.addScaledVector(this.spread, -away.dot(this.spread) / this.spread.lengthSq());
-    away.normalize();
-    this.followedPlace.copy(this.placeToFollow(actor, this.time));
-    this.controls.target.copy(this.followedPlace);
-    const distance = this.isSideBySide ? halfWidth / horizontal + reach : 14 * reach;
-    this.camera.position.copy(this.followedPlace).addScaledVector(away, distance);
-    this.controls.update();
+    const place = this.placeToFollow(actor, this.time);
+    const now = this.rig.camera.position.distanceTo(place);
+    this.followedPlace.copy(place);
+    this.rig.look(place, away, this.isSideBySide ? this.distanceOfRow() : this.distanceOf(actor, now));
+  }
+
+  /** From how far a row of bodies that stand side by side is seen. */
+  private distanceOfRow(): number {
+    const reach = this.followedReach;
+    return (0.5 * this.spreadOfAll.length() + 1.6 * reach) / this.rig.halfAngles.horizontal + reach;
+  }
+
+  /** From how far a body is followed: no farther than `now`, unless its arrows would not be in the picture. */
+  private distanceOf(actor: Actor, now: number): number {
+    const reach = this.followedReach;
+    const { horizontal, vertical } = this.rig.halfAngles;
+    const tangent = Math.min(horizontal, vertical);
+    const wanted = Math.min(now, kFollowReaches * reach);
+    const holds = (distance: number): boolean =>
+      actor.reachWithArrows(arrowPixels(this.pictureSize) * this.rig.pixelAt(distance)) <= 0.95 * tangent * distance;
+    if (holds(wanted)) return wanted;
+    // arrows have a size on the screen, the body one in space: from farther away both are seen
+    let distance = wanted;
+    while (!holds(distance) && distance < 100 * wanted) distance *= 1.05;
+    return distance;
   }
 
   /** The middle of a body and of those that stand beside it. */
@@ -241,13 +275,6 @@ export class Stage {
 
   get followedBody(): string | null {
     return this.followed?.motion.name ?? null;
-  }
-
-  /** The impact whose text goes before all others. */
-  highlight(impact: Impact | null): void {
-    if (impact === this.highlighted) return;
-    this.highlighted = impact;
-    this.refreshLabels();
   }
 
   /** The texts as the options are now. */
@@ -266,17 +293,10 @@ export class Stage {
           mark: colorOf(this.runs.length, index, 0),
         });
       if (!this.showsImpacts || (index > 0 && !this.showsGhosts)) return;
-      const shown = run.impacts.filter((each, i) => i < kMostImpactLabels || each === this.highlighted);
-      for (const impact of shown)
-        specs.push({
-          at: this.frame.toView(impact.point).add(this.runGroups[index].position),
-          text: format.impact(impact),
-          className: impact === this.highlighted ? "label-impact label-highlighted" : "label-impact",
-          priority: impact === this.highlighted ? 4 : index === 0 ? 3 : 2,
-        });
+      specs.push(...this.impacts[index].labels(this.runGroups[index].position, index === 0));
     });
     this.labels.set(specs);
-    this.occupied = [this.scale, ...this.container.querySelectorAll<HTMLElement>(".panel")].map((each) => ({
+    this.occupied = [this.scale, ...this.container.querySelectorAll<HTMLElement>(".moment:not([hidden])")].map((each) => ({
       left: each.offsetLeft,
       top: each.offsetTop,
       right: each.offsetLeft + each.offsetWidth,
@@ -284,14 +304,29 @@ export class Stage {
     }));
   }
 
-  /** Where the bodies of the first run are on the screen: texts keep clear of them. */
-  private bodyAreas(width: number, height: number): Area[] {
-    return this.actors[0].map(({ place }) => {
-      const point = place.clone().project(this.camera);
-      const x = (0.5 + 0.5 * point.x) * width;
-      const y = (0.5 - 0.5 * point.y) * height;
-      return { left: x - kBodyPixels, top: y - kBodyPixels, right: x + kBodyPixels, bottom: y + kBodyPixels };
-    });
+  /** The body or impact of the first run at a place of the picture, px. */
+  private targetAt(x: number, y: number): Target | null {
+    const { clientWidth: width, clientHeight: height } = this.container;
+    const { camera } = this.rig;
+    let [nearest, target] = [Infinity, null as Target | null];
+    const consider = (place: THREE.Vector3, radius: number, make: () => Target): void => {
+      const point = place.clone().project(camera);
+      if (point.z >= 1) return;
+      const away = Math.hypot((0.5 + 0.5 * point.x) * width - x, (0.5 - 0.5 * point.y) * height - y);
+      if (away > radius || away >= nearest) return;
+      [nearest, target] = [away, make()];
+    };
+    for (const { place, reach, motion } of this.actors[0]) {
+      const pixel = this.rig.pixelAt(camera.position.distanceTo(place));
+      const choose = (): void => this.events.chooseBody(motion.name);
+      consider(place, Math.max(kPointerPixels, reach / pixel), () => ({ text: motion.name, choose }));
+    }
+    if (this.showsImpacts)
+      for (const { impact, place } of this.impacts[0].shown) {
+        const text = momentText({ time: impact.time, kind: "impact", impact });
+        consider(place, kPointerPixels, () => ({ text, choose: () => this.events.seek(impact.time) }));
+      }
+    return target;
   }
 
   render(t: number): void {
@@ -299,28 +334,32 @@ export class Stage {
     // first the camera: how large arrows are depends on it
     if (this.followed) {
       const place = this.placeToFollow(this.followed, t);
-      const moved = place.clone().sub(this.followedPlace);
-      this.controls.target.add(moved);
-      this.camera.position.add(moved);
+      this.rig.move(place.clone().sub(this.followedPlace));
       this.followedPlace.copy(place);
     }
-    const forward = this.camera.getWorldDirection(new THREE.Vector3());
+    const { camera } = this.rig;
+    const forward = camera.getWorldDirection(new THREE.Vector3());
     const pixel = (at: THREE.Vector3): number =>
-      this.pixelAt(Math.max(0.01, at.clone().sub(this.camera.position).dot(forward)));
+      this.rig.pixelAt(Math.max(0.01, at.clone().sub(camera.position).dot(forward)));
     this.actors.forEach((actors, run) => {
       this.runGroups[run].visible = run === 0 || this.showsGhosts;
-      const markers = this.runGroups[run].getObjectByName("impacts");
-      if (markers) markers.visible = this.showsImpacts;
-      for (const actor of actors) actor.update(t, this.shown, pixel, this.pictureSize);
+      for (const actor of actors) actor.update(t, this.visibilityOf(actor, actors.length), pixel, this.pictureSize);
     });
-    // Depth has few digits: the range follows the distance that one looks at.
-    const distance = this.camera.position.distanceTo(this.controls.target);
-    this.camera.near = distance / 100;
-    this.camera.far = distance + 10 * kViewSize;
-    this.camera.updateProjectionMatrix();
-    this.camera.updateMatrixWorld();
-    this.renderer.render(this.scene, this.camera);
+    const isOther = this.impacts.map((marks) => {
+      marks.dots.visible = this.showsImpacts;
+      return marks.setTime(t);
+    });
+    if (isOther.some(Boolean)) this.refreshLabels();
+    this.shadows?.update();
+    this.rig.setRange();
+    this.renderer.render(this.scene, camera);
+    this.triad.update(camera);
     const { clientWidth: width, clientHeight: height } = this.container;
-    this.labels.update(this.camera, width, height, [...this.occupied, ...this.bodyAreas(width, height)]);
+    this.labels.update(camera, width, height, this.occupied);
+  }
+
+  private visibilityOf({ motion: { name } }: Actor, count: number): Visibility {
+    const isDetailed = count <= kManyBodies || name === this.chosenBody || name === this.followedBody;
+    return isDetailed ? this.shown : { trails: false, velocity: false, acceleration: false, axes: false };
   }
 }

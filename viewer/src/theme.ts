@@ -11,6 +11,9 @@ export const kComponentColors = ["#e69f00", "#56b4e9", "#cc79a7"];
 /** The course's colours: position blue, velocity green, acceleration red. */
 export const kQuantityColors = { position: "#2b7bff", velocity: "#16a34a", acceleration: "#e5383b" };
 
+/** Of the marks of impacts and events on the picture and the plots. */
+export const kMomentColors = { impact: "#dc2626", event: "#7c5cff" };
+
 export type Theme = "light" | "dark";
 
 const kStorageKey = "trajet-theme";

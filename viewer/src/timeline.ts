@@ -1,7 +1,7 @@
 import { type Clock, neighbour, speedsAround } from "./clock";
-import type { Impact } from "./data";
 import { element, iconButton, kIcons, setIcon } from "./dom";
 import * as format from "./format";
+import type { Moment } from "./moments";
 
 /** Marks on the bar; more of them would not be seen apart. */
 const kMostMarks = 600;
@@ -17,20 +17,24 @@ export function markPlaces(times: readonly number[], begin: number, duration: nu
   return [...places.values()];
 }
 
-/** The bar at the bottom: play, step from impact to impact, scrub. */
+/** The bar at the bottom: play, step from impact or event to the next, scrub. */
 export class Timeline {
   readonly root: HTMLElement;
   private readonly playButton: HTMLButtonElement;
   private readonly slider: HTMLInputElement;
   private readonly readout: HTMLOutputElement;
   private readonly speed: HTMLSelectElement;
+  private readonly times: number[];
+  private readonly exactTimes: Set<number>;
 
   /** `changed` is called whenever the user has changed the clock. */
   constructor(
     private readonly clock: Clock,
-    private readonly impacts: readonly Impact[],
+    moments: readonly Moment[],
     private readonly changed: () => void,
   ) {
+    this.times = moments.map(({ time }) => time);
+    this.exactTimes = new Set(this.times);
     this.playButton = iconButton("Play", "space", kIcons.play, () => this.toggle());
     this.slider = element("input", {
       type: "range",
@@ -44,11 +48,13 @@ export class Timeline {
       this.seek(this.clock.begin + Number(this.slider.value) * this.clock.duration);
     });
     const ticks = element("div", { class: "ticks", "aria-hidden": "true" });
-    const times = impacts.map((impact) => impact.time);
-    for (const part of markPlaces(times, clock.begin, clock.duration)) {
-      const tick = element("i");
-      tick.style.left = `calc(var(--thumb) / 2 + ${part} * (100% - var(--thumb)))`;
-      ticks.append(tick);
+    for (const kind of ["impact", "event"] as const) {
+      const times = moments.filter((moment) => moment.kind === kind).map(({ time }) => time);
+      for (const part of markPlaces(times, clock.begin, clock.duration)) {
+        const tick = element("i", { class: kind });
+        tick.style.left = `calc(var(--thumb) / 2 + ${part} * (100% - var(--thumb)))`;
+        ticks.append(tick);
+      }
     }
     this.readout = element("output", { class: "time", "aria-live": "off" });
     this.speed = element("select", { "aria-label": "Speed", title: "Speed (− and +)" });
@@ -56,11 +62,12 @@ export class Timeline {
       this.speed.append(element("option", { value: String(speed) }, `${format.number(speed)}×`));
     this.speed.value = String(clock.speed);
     this.speed.addEventListener("change", () => (this.clock.speed = Number(this.speed.value)));
+    const kinds = [...new Set(moments.map(({ kind }) => kind))].sort().reverse().join(" or ");
     const steps =
-      impacts.length > 0
+      moments.length > 0
         ? [
-            iconButton("Previous impact", "P", kIcons.previous, () => this.step(-1)),
-            iconButton("Next impact", "N", kIcons.next, () => this.step(1)),
+            iconButton(`Previous ${kinds}`, "P", kIcons.previous, () => this.step(-1)),
+            iconButton(`Next ${kinds}`, "N", kIcons.next, () => this.step(1)),
           ]
         : [];
     this.root = element(
@@ -84,9 +91,9 @@ export class Timeline {
     this.changed();
   }
 
-  /** To the impact before or behind the time that is shown. */
+  /** To the impact or event before or behind the time that is shown. */
   step(direction: 1 | -1): void {
-    const t = neighbour(this.impacts.map((impact) => impact.time), this.clock.time, direction);
+    const t = neighbour(this.times, this.clock.time, direction);
     this.clock.isPlaying = false;
     if (t !== null) this.seek(t);
     else this.changed();
@@ -99,7 +106,8 @@ export class Timeline {
     this.clock.speed = Number(this.speed.value);
   }
 
-  update(): void {
+  /** `shown`: s, the time of the picture, where it is another than the clock's. */
+  update(shown = this.clock.time): void {
     const { clock } = this;
     const name = clock.isPlaying ? "Pause" : "Play";
     if (this.playButton.getAttribute("aria-label") !== name) {
@@ -109,10 +117,10 @@ export class Timeline {
     }
     const part = (clock.time - clock.begin) / (clock.duration || 1);
     if (Number(this.slider.value) !== part) this.slider.value = String(part);
-    // At an impact the time is exact, elsewhere as fine as one can see.
-    const isImpact = this.impacts.some((impact) => impact.time === clock.time);
-    const text = isImpact ? format.exactTime(clock.time) : `${format.time(clock.time, clock.duration)} s`;
+    // At an impact or event the time is exact, elsewhere as fine as one can see.
+    const text = this.exactTimes.has(shown) ? format.exactTime(shown) : `${format.time(shown, clock.duration)} s`;
     this.readout.textContent = text;
+    this.readout.classList.toggle("preview", shown !== clock.time);
     this.slider.setAttribute("aria-valuetext", text);
   }
 }

@@ -146,7 +146,7 @@ describe("a run of no duration", () => {
   const half = Math.SQRT1_2;
   const data = (kind: RotationData["kind"], frame: RotationData["frame"], angular_velocity: number): RunData => ({
     report: {
-      title: "", scene: "", method: "rk4", status: "failed", start_time: 2, end_time: 2, impacts: [], events: [], warnings: [],
+      title: "", scene: "", method: "rk4", status: "failed", start_time: 2, end_time: 2, parameters: {}, impacts: [], events: [], warnings: [], statistics: {},
       // a quarter of a turn about z
       final: [{ ...state, orientation: [half, 0, 0, half], rotation_matrix: [[0, -1, 0], [1, 0, 0], [0, 0, 1]], angular_velocity: [7, 0, 0] } as FinalState],
       states: { m: 8 },
@@ -176,7 +176,7 @@ describe("a run of no duration", () => {
 
 describe("runs", () => {
   const run = (method: string, orientation: string | null): RunData => ({
-    report: { title: "", scene: "", method, status: "finished", start_time: 0, end_time: 1, impacts: [], events: [], final: [], states: {}, warnings: [] },
+    report: { title: "", scene: "", method, status: "finished", start_time: 0, end_time: 1, parameters: {}, impacts: [], events: [], final: [], states: {}, warnings: [], statistics: {} },
     orientation,
     bodies: [],
     states: [],

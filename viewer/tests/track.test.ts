@@ -1,5 +1,5 @@
 import { describe, expect, it } from "vitest";
-import { isZero } from "../src/quantities";
+import { isZero } from "../src/curves";
 import { jumpsOf, samplingTimes } from "../src/sampling";
 import { Track } from "../src/track";
 import { piece } from "./pieces";

@@ -44,7 +44,7 @@ async function open(scene, viewport) {
   const page = await browser.newPage({ viewport, colorScheme: "light" });
   await page.goto(pathToFileURL(file).href);
   await page.addStyleTag({
-    content: `header, .timeline, .panel, .body:not(.plots-only) .side { display: none !important }
+    content: `header, .timeline, .panel, .moment, .body:not(.plots-only) .side { display: none !important }
               .body { display: block !important; height: 100dvh !important }
               .stage { height: 100dvh !important }
               .label-obstacle { display: none }`,

@@ -187,14 +187,4 @@ T distance(const Triangle& triangle, const Vector3T<T>& p) {
                              lesser(to_edge(0), lesser(to_edge(1), to_edge(2))))));
 }
 
-/// The point of a shape's surface that is nearest to p; of thin shapes, the nearest point.
-Vector3 closest_point(const Plane& plane, const Vector3& p);
-Vector3 closest_point(const Disk& disk, const Vector3& p);
-Vector3 closest_point(const Rectangle& rectangle, const Vector3& p);
-Vector3 closest_point(const Triangle& triangle, const Vector3& p);
-/// The centre itself has no nearest point: the point in the direction of x then.
-Vector3 closest_point(const Sphere& sphere, const Vector3& p);
-Vector3 closest_point(const Box& box, const Vector3& p);
-Vector3 closest_point(const MeshSurface& surface, const Vector3& p);
-
 }  // namespace trajet

@@ -30,12 +30,12 @@ TRAJET_INLINE T squared(const T& a) {
 
 /// a^k; series have an overload for plain exponents.
 template <class T>
-TRAJET_INLINE T raised(const T& a, double k) {
+TRAJET_INLINE T raised(const T& a, const ExtendedConstant& k) {
   using std::pow;
   if constexpr (requires { typename T::Coefficient; }) {
-    return pow(a, k);
+    return pow(a, k.value);
   } else {
-    return pow(a, T(k));
+    return pow(a, k.as<T>());
   }
 }
 
@@ -62,6 +62,7 @@ TRAJET_INLINE const Instruction* run_alike(const Instruction* i, const Instructi
   const auto a = [&]() -> const T& { return slots[i->a]; };
   const auto b = [&]() -> const T& { return slots[i->b]; };
   const auto c = [&]() -> const T& { return slots[i->c]; };
+  const auto k = [&] { return i->constant.as<T>(); };
   const auto result = [&]() -> T& { return slots[i->result]; };
   const auto each = [&, opcode = i->opcode](const auto& compute) {
     do {
@@ -74,21 +75,21 @@ TRAJET_INLINE const Instruction* run_alike(const Instruction* i, const Instructi
     case Opcode::add:
       return each([&] { result() = a() + b(); });
     case Opcode::add_constant:
-      return each([&] { result() = a() + T(i->constant); });
+      return each([&] { result() = a() + k(); });
     case Opcode::subtract:
       return each([&] { result() = a() - b(); });
     case Opcode::constant_minus:
-      return each([&] { result() = T(i->constant) - a(); });
+      return each([&] { result() = k() - a(); });
     case Opcode::multiply:
       return each([&] { result() = a() * b(); });
     case Opcode::multiply_constant:
-      return each([&] { result() = T(i->constant) * a(); });
+      return each([&] { result() = k() * a(); });
     case Opcode::divide:
       return each([&] { result() = a() / b(); });
     case Opcode::divide_constant:
-      return each([&] { result() = a() / T(i->constant); });
+      return each([&] { result() = a() / k(); });
     case Opcode::constant_over:
-      return each([&] { result() = T(i->constant) / a(); });
+      return each([&] { result() = k() / a(); });
     case Opcode::negate:
       return each([&] { result() = -a(); });
     case Opcode::square:
@@ -168,7 +169,7 @@ TRAJET_INLINE const Instruction* run_alike(const Instruction* i, const Instructi
 /// Puts the program's constants into their slots; once for any number of evaluations.  // slots: (slot_count)
 template <class T>
 void load_constants(const Program& program, T* slots) {
-  for (const Program::Constant& constant : program.constants) slots[constant.slot] = T(constant.value);
+  for (const Program::Constant& constant : program.constants) slots[constant.slot] = constant.value.as<T>();
 }
 
 /// Evaluates a program whose inputs and constants are already in their slots; the outputs are then found there.

@@ -8,6 +8,8 @@
 #include <vector>
 
 #include "trajet/error.hpp"
+#include "trajet/law/dimension.hpp"
+#include "trajet/math/extended_constant.hpp"
 #include "trajet/math/vector.hpp"
 
 namespace trajet {
@@ -33,7 +35,9 @@ class Expression {
   /// A vector built of three scalar formulas, as `[a, b, c]`.
   static Expression vector(const Expression& x, const Expression& y, const Expression& z);
   /// A number that stands at `where` in a file: errors about its use point there.
-  static Expression number(double value, const SourceLocation& where);
+  static Expression number(const ExtendedConstant& value, const SourceLocation& where);
+  /// A number of SI units that was written with a unit of that dimension.
+  static Expression quantity(const ExtendedConstant& value, const Dimension& dimension, const SourceLocation& where);
 
   /// The same with `place(where)` for every place in it: of a text that was cut out of another.
   Expression relocated(const std::function<SourceLocation(const SourceLocation&)>& place) const;
@@ -46,6 +50,14 @@ class Expression {
   const std::string& text() const;
   /// The names it uses, as written (`v0`, `sun.r`, `t`; not `pi`), each once, in order of appearance.
   std::vector<std::string> names() const;
+
+  /// A table that the formula looks up, and where it says so.
+  struct TableUse {
+    std::string name;
+    SourceLocation where;
+  };
+  /// In order of appearance.
+  std::vector<TableUse> tables() const;
 
   const detail::SyntaxNode& root() const;
 

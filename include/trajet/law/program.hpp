@@ -4,7 +4,8 @@
 #include <memory>
 #include <vector>
 
-#include "trajet/law/table.hpp"
+#include "trajet/law/lookup_table.hpp"
+#include "trajet/math/extended_constant.hpp"
 
 namespace trajet {
 
@@ -60,19 +61,19 @@ struct Instruction {
   std::int32_t a = 0;
   std::int32_t b = 0;
   std::int32_t c = 0;
-  double constant = 0.0;
+  ExtendedConstant constant{};
 };
 
 /// Formulas compiled into a flat list of scalar instructions in which nothing is computed twice.
 ///
 /// It works on an array of slots, of any number type: first the inputs (0 is the time t, then the state), then the
 /// constants, then the results in the order of the instructions; each slot is written once. Alike instructions that do
-/// not need each other stand together. Plain data: read it,
-/// evaluate it (law/evaluate.hpp), expand it into power series (law/program_expansion.hpp). `ProgramBuilder` makes it.
+/// not need each other stand together. Plain data: read it, evaluate it (law/evaluate.hpp), expand it into power series
+/// (law/program_expansion.hpp). `ProgramBuilder` makes it, and opens it again to add to it.
 struct Program {
   struct Constant {
     std::int32_t slot;
-    double value;
+    ExtendedConstant value;
   };
 
   int input_count = 0;
@@ -80,7 +81,7 @@ struct Program {
   std::vector<Constant> constants;
   std::vector<Instruction> instructions;
   std::vector<std::int32_t> outputs;  ///< slots: of results, constants or inputs
-  std::vector<std::shared_ptr<const Table>> tables;
+  std::vector<std::shared_ptr<const LookupTable>> tables;
 };
 
 /// The degree in time of all solutions of dq/dt = program(t, q) if they are polynomials whatever the state, else -1.

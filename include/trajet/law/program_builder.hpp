@@ -30,26 +30,29 @@ class ProgramBuilder {
 
   /// Programs over the inputs 0 … input_count - 1; 0 is t.
   explicit ProgramBuilder(int input_count);
+  /// Opens a program again, to compute more from what it computes. It has no outputs yet: see `output_of_base`.
+  explicit ProgramBuilder(const Program& base);
   ~ProgramBuilder();
   ProgramBuilder(ProgramBuilder&&) noexcept;
   ProgramBuilder& operator=(ProgramBuilder&&) noexcept;
 
-  /// Throws InputError that points into the formula: unknown names, scalar + vector, …; FileError for a table.
+  /// Throws InputError that points into the formula: unknown names and tables, scalar + vector, ….
   Value compile(const Expression& formula, const Symbols& symbols);
   /// As `compile`; what has the wrong shape is an InputError.
   Value compile_scalar(const Expression& formula, const Symbols& symbols);
   Value compile_vector(const Expression& formula, const Symbols& symbols);
 
-  Value input(int index) const;
   Value inputs(const std::array<int, 3>& indices) const;
   Value constant(double value);
   /// numerator / denominator, scalar or vector by scalar: a force and a mass make an acceleration.
   Value divide(const Value& numerator, const Value& denominator);
 
-  /// The node of an operation on nodes of this builder, as a Term uses it. A product with the constant 0 is 0, as that
-  /// of a component of a vector.
+  /// The node of an operation on nodes of this builder, as a ProgramNumber uses it. A product with the constant 0 is 0,
+  /// as that of a component of a vector.
   int combine(Opcode opcode, int a, int b = 0);
-  int constant_node(double value);
+  int constant_node(const ExtendedConstant& value);
+  /// The node of an output of the program that was opened again.
+  int output_of_base(int index) const;
 
   /// Appends one or three outputs.
   void add_output(const Value& value);
@@ -67,6 +70,7 @@ class ProgramBuilder {
 double evaluate_scalar(const Expression& formula, const Symbols& constants);
 Vector3 evaluate_vector(const Expression& formula, const Symbols& constants);
 /// One number or three.
-std::variant<double, Vector3> evaluate_constant(const Expression& formula, const Symbols& constants);
+std::variant<ExtendedConstant, Symbols::ConstantVector> evaluate_constant(const Expression& formula,
+                                                                          const Symbols& constants);
 
 }  // namespace trajet

@@ -68,7 +68,7 @@ class ProgramExpansionT {
     T constant;
     T *a, *b, *c, *result;
     std::array<T*, 3> own;  ///< what it keeps for itself
-    const Table* table;
+    const LookupTable* table;
     int branch;  ///< index of its Branch, or -1
   };
 

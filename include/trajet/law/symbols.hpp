@@ -2,11 +2,14 @@
 
 #include <array>
 #include <map>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <variant>
 #include <vector>
 
+#include "trajet/law/lookup_table.hpp"
+#include "trajet/math/extended_constant.hpp"
 #include "trajet/math/vector.hpp"
 
 namespace trajet {
@@ -25,15 +28,19 @@ class Symbols {
   struct Forbidden {
     std::string reason;
   };
-  using Meaning = std::variant<double, Vector3, Scalar, Vector, Forbidden>;
+  using ConstantVector = std::array<ExtendedConstant, 3>;
+  using Meaning = std::variant<ExtendedConstant, ConstantVector, Scalar, Vector, Forbidden>;
 
   /// `outer`, if any, must live as long as this scope is used.
   explicit Symbols(const Symbols* outer = nullptr) : outer_(outer) {}
 
   /// Defines a name, anew if it is known.
   void set(const std::string& name, Meaning meaning) { meanings_.insert_or_assign(name, std::move(meaning)); }
-  void set_constant(const std::string& name, double value) { set(name, value); }
-  void set_constant(const std::string& name, const Vector3& value) { set(name, value); }
+  void set_constant(const std::string& name, const ExtendedConstant& value) { set(name, value); }
+  void set_constant(const std::string& name, const ConstantVector& value) { set(name, value); }
+  void set_constant(const std::string& name, const Vector3& value) {
+    set(name, ConstantVector{value.x(), value.y(), value.z()});
+  }
   /// The name stands for an input of the program: 0 is t.
   void set_input(const std::string& name, int input) { set(name, Scalar{input}); }
   void set_inputs(const std::string& name, const std::array<int, 3>& inputs) { set(name, Vector{inputs}); }
@@ -42,6 +49,18 @@ class Symbols {
   void set_nodes(const std::string& name, const std::array<int, 3>& nodes) { set(name, Vector{nodes}); }
   /// `reason` is a whole message: "t is not allowed in a parameter".
   void forbid(const std::string& name, const std::string& reason) { set(name, Forbidden{reason}); }
+
+  /// What `table("NAME", x)` looks up.
+  void set_table(const std::string& name, std::shared_ptr<const LookupTable> table) {
+    tables_.insert_or_assign(name, std::move(table));
+  }
+
+  /// The table of that name here, or nullptr.
+  std::shared_ptr<const LookupTable> find_table(std::string_view name) const {
+    const auto found = tables_.find(name);
+    if (found != tables_.end()) return found->second;
+    return outer_ == nullptr ? nullptr : outer_->find_table(name);
+  }
 
   /// The meaning of a name here, or nullptr.
   const Meaning* find(std::string_view name) const {
@@ -64,6 +83,7 @@ class Symbols {
  private:
   const Symbols* outer_;
   std::map<std::string, Meaning, std::less<>> meanings_;
+  std::map<std::string, std::shared_ptr<const LookupTable>, std::less<>> tables_;
 };
 
 }  // namespace trajet

@@ -29,8 +29,13 @@ TRAJET_INLINE double max(double a, double b) { return a < b ? b : a; }
 /// Length of (x, y, z), by the plain formula: no overflow protection, the same rounding on every machine.
 TRAJET_INLINE double norm3(double x, double y, double z) { return std::sqrt(x * x + y * y + z * z); }
 
-// The same of extended precision, for coefficients of power series.
+// The same of extended precision, for constants and coefficients of power series.
+inline bool less(long double a, long double b) { return a < b; }
+inline bool less_equal(long double a, long double b) { return a <= b; }
 inline bool equal(long double a, long double b) { return a == b; }
+inline long double where(bool condition, long double a, long double b) { return condition ? a : b; }
+inline long double min(long double a, long double b) { return b < a ? b : a; }
+inline long double max(long double a, long double b) { return a < b ? b : a; }
 inline double sign(long double x) { return x > 0.0L ? 1.0 : x < 0.0L ? -1.0 : static_cast<double>(x); }
 inline long double norm3(long double x, long double y, long double z) { return std::sqrt(x * x + y * y + z * z); }
 

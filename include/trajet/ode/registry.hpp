@@ -32,6 +32,8 @@ struct MethodInfo {
   /// Why the method cannot solve systems of that structure; nullptr: it can solve all.
   std::optional<Unsuitable> (*find_unsuitable)(const Structure& structure) = nullptr;
 
+  bool carries_extended = false;  ///< its state is in extended precision from step to step
+
   bool needs_step() const { return control != StepControl::adaptive; }
 };
 

@@ -67,6 +67,7 @@ concept Stepper = requires(S& stepper, const S& fixed, double t, const typename 
 class AnyStepper {
  public:
   using State = Eigen::VectorXd;
+  using ExtendedState = Eigen::VectorX<long double>;
   static constexpr int kDimension = Eigen::Dynamic;
 
   virtual ~AnyStepper() = default;
@@ -80,6 +81,13 @@ class AnyStepper {
   /// length again: the steps go on as they would have. False, and nothing is done, where the method would lose what
   /// it has computed ahead or remembers. The last step's Segment is gone.
   virtual bool amend(const State&) { return false; }
+  /// Whether the state is carried in extended precision from step to step.
+  virtual bool is_extended() const { return false; }
+  /// `start` with a state in extended precision, where it is carried so.
+  virtual void start_extended(double t, const ExtendedState& q) { start(t, q.cast<double>()); }
+  /// The state `tau` (s) behind the start of the last step, in the precision in which it is carried; none where the step
+  /// is known in double precision only.
+  virtual std::optional<ExtendedState> extended_state(long double /*tau*/) const { return std::nullopt; }
   /// What a user should know of the work so far: sentences, each once.
   virtual std::vector<std::string> warnings() const = 0;
 };

@@ -55,6 +55,7 @@ class TaylorStepper {
   using State = typename Expansion::State;
   using Number = typename Expansion::Number;  // of the coefficients and of the state between steps
   static constexpr int kDimension = State::RowsAtCompileTime;
+  static constexpr bool kIsExtended = !std::is_same_v<Number, double>;
 
   /// Reads `rtol`, `atol`, `order` and `step`. Throws std::invalid_argument for wrong tolerances, or for an order above
   /// kMaxTaylorOrder.
@@ -79,6 +80,21 @@ class TaylorStepper {
     t_ = start_time_ = t;
     set_state(q);
     previous_step_ = 0.0;
+  }
+
+  /// Starts from a state in the precision of the coefficients.
+  void start_extended(double t, const Eigen::Matrix<Number, kDimension, 1>& q) requires(kIsExtended) {
+    start(t, State(q.template cast<double>()));
+    q_ = q;
+  }
+
+  /// The state `tau` behind the start of the last step, in the precision of the coefficients; none if it was made
+  /// without a series.
+  std::optional<Eigen::Matrix<Number, kDimension, 1>> extended_state(Number tau) const requires(kIsExtended) {
+    if (by_runge_kutta_) return std::nullopt;
+    NumberState q = series_.col(order_);
+    for (int k = order_ - 1; k >= 0; --k) q = q * tau + series_.col(k);
+    return q;
   }
 
   StepStatus advance(double t_limit) {
@@ -107,11 +123,12 @@ class TaylorStepper {
     segment = segment_;
     const double h = std::abs(segment_.duration());
     for (int i = 0; i < segment_.dimension(); ++i) {
-      // the last term bounds the first one left out; each of the others is rounded
+      // the last term bounds the first one left out; each of the others is rounded, in the precision of the state
       double magnitude = 0.0;
       for (int k = order_; k >= 0; --k) magnitude = magnitude * h + std::abs(segment_.coefficients()(i, k));
       const double last_term = exact_ ? 0.0 : std::abs(segment_.coefficients()(i, order_)) * std::pow(h, order_);
-      segment.error_bound()[i] = last_term + 2.0 * std::numeric_limits<double>::epsilon() * magnitude;
+      constexpr double kEpsilon = static_cast<double>(std::numeric_limits<Number>::epsilon());
+      segment.error_bound()[i] = last_term + 2.0 * kEpsilon * magnitude;
     }
   }
 
@@ -129,7 +146,6 @@ class TaylorStepper {
   const StepStatistics& statistics() const { return statistics_; }
 
  private:
-  static constexpr bool kIsExtended = !std::is_same_v<Number, double>;
   using NumberState = Eigen::Matrix<Number, kDimension, 1>;
   using Series = Eigen::Matrix<Number, kDimension, Eigen::Dynamic, Segment<kDimension>::Coefficients::Options>;
 

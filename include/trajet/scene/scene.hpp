@@ -1,6 +1,7 @@
 #pragma once
 
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <variant>
@@ -11,6 +12,7 @@
 #include "trajet/event/crossing.hpp"
 #include "trajet/geom/triangle_mesh.hpp"
 #include "trajet/law/expression.hpp"
+#include "trajet/law/lookup_table.hpp"
 #include "trajet/rigid/orientation.hpp"
 #include "trajet/scene/rgb_color.hpp"
 
@@ -92,11 +94,14 @@ struct TriangleShape {
 using ShapeDefinition = std::variant<PointShape, BallShape, CuboidShape, CylinderShape, CapsuleShape, SoccerBallShape,
                                      HullShape, MeshShape, PlaneShape, DiskShape, RectangleShape, TriangleShape>;
 
-/// Exactly one of the three, or none for the identity.
+/// Exactly one of the four, or none for the identity.
 struct OrientationDefinition {
   std::optional<Expression> axis, angle_rad;
   std::vector<Expression> quaternion;  ///< w, x, y, z; normalised
   std::vector<Expression> matrix;      ///< three rows; a rotation
+  /// Three angles, rad: R_WB = Rz(yaw) Ry(pitch) Rx(roll), about the axes of the world in the order x, y, z, which is
+  /// about those of the turning body in the order z, y, x.
+  std::vector<Expression> roll_pitch_yaw;
   SourceLocation where{};
 };
 
@@ -178,6 +183,8 @@ struct Scene {
   std::string title;
   std::string file;  ///< where it was read from; empty for a scene built in C++
   std::vector<NamedExpression> parameters;
+  /// What `table("NAME", x)` of its formulas looks up, by name.
+  std::map<std::string, std::shared_ptr<const LookupTable>> tables;
   TimeOptions time;
   MethodOptions method;
   std::vector<BodyDefinition> bodies;
@@ -187,6 +194,7 @@ struct Scene {
   /// Closed forms over t and the parameters, by name: `ball.r`, `ball.v`, `ball.w`, `ball.w_body`, or an extra state.
   std::vector<NamedExpression> exact;
   std::vector<ExactOrientation> exact_orientations;
+  std::vector<std::string> warnings;  ///< sentences on what was assumed when it was made
 };
 
 }  // namespace trajet

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -39,6 +41,7 @@ struct World {
   struct Thing {
     std::string name;
     Solid solid;
+    std::optional<RgbColor> color{};  ///< as the scene says
     SourceLocation where{};
   };
 
@@ -50,7 +53,6 @@ struct World {
     Quaternion q_WB{1.0, 0.0, 0.0, 0.0};  ///< at the start, unit
     std::optional<Rotation> rotation;     ///< none: it does not turn
     std::optional<Program> mass;          ///< kg, one output
-    std::optional<RgbColor> color;        ///< as the scene says
 
     BodySlice slice() const { return {offset, rotation ? std::optional(rotation->layout) : std::nullopt}; }
   };
@@ -62,7 +64,6 @@ struct World {
     Shape shape;                          ///< the solid where it stands
     OnHit on_hit = OnHit::stop;
     double restitution = 1.0;
-    std::optional<RgbColor> color{};  ///< as the scene says
   };
 
   struct ExtraState {
@@ -81,8 +82,18 @@ struct World {
     std::vector<int> targets;  ///< offsets in the group's state
   };
 
+  /// A formula of the scene from which components of a group's rate are computed.
+  struct LawFormula {
+    std::string_view key;  ///< as scenes call it: `acceleration`, `rate`
+    int body = -1;         ///< in World::bodies; -1: that of the extra state at `first`
+    int first = 0;         ///< of the components
+    int size = 1;
+    Expression text;
+  };
+
   struct Group {
     Program law;  ///< outputs: the rate of the group's state
+    std::vector<LawFormula> formulas;
     Eigen::VectorXd start;
     std::vector<int> bodies;  ///< indices into World::bodies
     std::vector<int> events;  ///< indices into World::events
@@ -116,6 +127,18 @@ struct World {
     std::optional<AngularVelocity> angular_velocity{};
   };
 
+  /// What the scene's numbers are in extended precision, where the method carries the state so: a start of 0.1 or a
+  /// radius of 1/3 is none that doubles have.
+  struct ExtendedNumbers {
+    struct Sphere {
+      Vector3T<long double> center;
+      long double radius;
+    };
+    std::vector<Eigen::VectorX<long double>> starts;  ///< of each group
+    std::vector<long double> radii;                   ///< of each body
+    std::map<int, Sphere> spheres;                    ///< of the obstacles that are spheres
+  };
+
   std::string scene;  ///< file name
   std::string title;
   double start = 0.0;   ///< s
@@ -126,6 +149,7 @@ struct World {
   long max_steps = 0;
   Locator locate = Locator::polynomial;
   std::vector<NamedValue> parameters;
+  std::map<std::string, std::shared_ptr<const LookupTable>> tables;
   std::vector<std::string> warnings;  ///< sentences on what the scene says in vain
   std::vector<Body> bodies;
   std::vector<Obstacle> obstacles;
@@ -134,9 +158,10 @@ struct World {
   std::vector<Group> groups;
   std::vector<ClosedForm> exact;
   std::vector<ClosedRotation> exact_rotations;
+  std::optional<ExtendedNumbers> extended{};
 };
 
-/// Gives a scene its numbers. Throws InputError that points at the place, FileError for a table that cannot be read.
+/// Gives a scene its numbers. Throws InputError that points at the place.
 World make_world(const Scene& scene);
 
 }  // namespace trajet

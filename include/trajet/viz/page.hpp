@@ -18,6 +18,7 @@ struct PageOptions {
   /// The number of a page that asks its server for another version of itself, and reloads when there is one; 0: it does
   /// not.
   long live_version = 0;
+  std::string scene_text;  ///< the scene as its author wrote it, to be read on the page; empty: there is none
 };
 
 /// Why the page cannot be shown in this build of trajet; empty where it can.

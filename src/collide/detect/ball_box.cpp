@@ -1,5 +1,6 @@
 #include "grown_shape.hpp"
 #include "trajet/collide/detect/contact_table.hpp"
+#include "trajet/geom/closest_point.hpp"
 #include "trajet/geom/distance.hpp"
 
 namespace trajet {

@@ -6,7 +6,7 @@
 #include "point_surface.hpp"
 #include "step_end_search.hpp"
 #include "trajet/collide/detect/contact_table.hpp"
-#include "trajet/geom/distance.hpp"
+#include "trajet/geom/closest_point.hpp"
 #include "trajet/geom/triangle_surface.hpp"
 #include "triangle_distance.hpp"
 

@@ -2,6 +2,7 @@
 #include "step_end_search.hpp"
 #include "trajet/collide/detect/contact_table.hpp"
 #include "trajet/event/linear_function.hpp"
+#include "trajet/geom/closest_point.hpp"
 #include "trajet/geom/distance.hpp"
 
 namespace trajet {

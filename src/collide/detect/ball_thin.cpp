@@ -3,6 +3,7 @@
 #include "grown_shape.hpp"
 #include "trajet/collide/detect/contact_table.hpp"
 #include "trajet/event/linear_function.hpp"
+#include "trajet/geom/closest_point.hpp"
 #include "trajet/geom/distance.hpp"
 
 namespace trajet {

@@ -5,6 +5,7 @@
 #include "grown_gap.hpp"
 #include "step_end_search.hpp"
 #include "trajet/event/composed_function.hpp"
+#include "trajet/geom/closest_point.hpp"
 #include "trajet/geom/distance.hpp"
 #include "triangle_distance.hpp"
 

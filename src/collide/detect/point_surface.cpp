@@ -7,7 +7,7 @@
 #include "contact_report.hpp"
 #include "step_end_search.hpp"
 #include "trajet/event/linear_function.hpp"
-#include "trajet/geom/distance.hpp"
+#include "trajet/geom/closest_point.hpp"
 
 namespace trajet::detail {
 

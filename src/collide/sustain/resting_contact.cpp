@@ -4,44 +4,30 @@
 #include <array>
 
 #include "trajet/geom/flat_faces.hpp"
+#include "trajet/law/program_number.hpp"
 
 namespace trajet {
 namespace {
 
-/// Appends instructions to a program.
-class ProgramWriter {
- public:
-  explicit ProgramWriter(Program& program) : program_(program) {}
+using NumberVector = Vector3T<ProgramNumber>;
 
-  int write(Opcode opcode, int a, int b, double constant = 0.0) {
-    Instruction instruction;
-    instruction.opcode = opcode;
-    instruction.a = a;
-    instruction.b = b;
-    instruction.constant = constant;
-    instruction.result = program_.slot_count++;
-    program_.instructions.push_back(instruction);
-    return instruction.result;
-  }
+/// The numbers of a program that was opened again: three of its outputs, or of its inputs, from `first` on.
+NumberVector outputs(ProgramBuilder& builder, int first) {
+  return {ProgramNumber::output_of_base(builder, first), ProgramNumber::output_of_base(builder, first + 1),
+          ProgramNumber::output_of_base(builder, first + 2)};
+}
+NumberVector inputs(ProgramBuilder& builder, int first) {
+  return {ProgramNumber(builder, first), ProgramNumber(builder, first + 1), ProgramNumber(builder, first + 2)};
+}
 
-  /// n . (x, y, z)
-  int along(const Vector3& normal, const std::array<int, 3>& vector) {
-    int sum = write(Opcode::multiply_constant, vector[0], 0, normal[0]);
-    for (int i = 1; i < 3; ++i) {
-      const int term = write(Opcode::multiply_constant, vector[static_cast<std::size_t>(i)], 0, normal[i]);
-      sum = write(Opcode::add, sum, term);
-    }
-    return sum;
-  }
+ProgramNumber along(const Vector3& direction, const NumberVector& vector) {
+  return direction.cast<ProgramNumber>().dot(vector);
+}
 
- private:
-  Program& program_;
-};
-
-/// The outputs `first`, `first` + 1 and `first` + 2.
-std::array<int, 3> output_vector(const Program& program, int first) {
-  const auto i = static_cast<std::size_t>(first);
-  return {program.outputs[i], program.outputs[i + 1], program.outputs[i + 2]};
+/// The program of one number alone.
+Program program_of(ProgramBuilder& builder, const ProgramNumber& number) {
+  builder.add_output({false, {number.node(builder), 0, 0}});
+  return builder.build();
 }
 
 constexpr int kVelocity = 3;  // behind the position
@@ -65,48 +51,38 @@ Support support(const std::vector<Vector3>& normals) {
 }
 
 Program hold(const Program& law, int offset, const Vector3& direction) {
-  Program held = law;
-  ProgramWriter writer(held);
+  ProgramBuilder builder(law);
+  const int count = static_cast<int>(law.outputs.size());
+  std::vector<ProgramNumber> rate;
+  for (int i = 0; i < count; ++i) rate.push_back(ProgramNumber::output_of_base(builder, i));
   for (const int first : {offset, offset + kVelocity}) {
-    const std::array<int, 3> vector = output_vector(held, first);
-    const int along = writer.along(direction, vector);
-    // u - (u . d) d
-    for (int i = 0; i < 3; ++i) {
-      const int part = writer.write(Opcode::multiply_constant, along, 0, direction[i]);
-      const auto k = static_cast<std::size_t>(i);
-      held.outputs[static_cast<std::size_t>(first + i)] = writer.write(Opcode::subtract, vector[k], part);
-    }
+    NumberVector u = outputs(builder, first);
+    u -= along(direction, u) * direction.cast<ProgramNumber>();
+    for (int i = 0; i < 3; ++i) rate[static_cast<std::size_t>(first + i)] = u[i];
   }
-  return held;
+  for (const ProgramNumber& each : rate) builder.add_output({false, {each.node(builder), 0, 0}});
+  return builder.build();
 }
 
 ReleaseConditions release_conditions(const Program& law, const Shape& shape, const RestingContact& contact) {
-  ReleaseConditions conditions{law, {}};
-  conditions.pull.outputs = {
-      ProgramWriter(conditions.pull).along(contact.release, output_vector(law, contact.offset + kVelocity))};
+  ReleaseConditions conditions;
+  ProgramBuilder pull(law);
+  conditions.pull = program_of(pull, along(contact.release, outputs(pull, contact.offset + kVelocity)));
 
   const int position = 1 + contact.offset;  // behind t
-  Program inputs;
-  inputs.input_count = inputs.slot_count = law.input_count;
   const FaceOutline outline = face_outline(shape, contact.point, contact.normal);
   for (const FaceEdge& edge : outline.edges) {
-    Program past = inputs;
-    ProgramWriter writer(past);
-    const int along = writer.along(edge.direction, {position, position + 1, position + 2});
-    past.outputs = {writer.write(Opcode::add_constant, along, 0, -edge.limit)};
-    conditions.past_edges.push_back(past);
+    ProgramBuilder past(law.input_count);
+    conditions.past_edges.push_back(
+        program_of(past, along(edge.direction, inputs(past, position)) - ProgramNumber(edge.limit)));
   }
   if (const auto& rim = outline.rim) {
     // |p - c|^2 - (n . (p - c))^2 - R^2: past the rim
-    Program past = inputs;
-    ProgramWriter writer(past);
-    std::array<int, 3> arm;
-    for (int i = 0; i < 3; ++i)
-      arm[static_cast<std::size_t>(i)] = writer.write(Opcode::add_constant, position + i, 0, -rim->center[i]);
-    int sum = writer.write(Opcode::negate, writer.write(Opcode::square, writer.along(rim->normal, arm), 0), 0);
-    for (const int component : arm) sum = writer.write(Opcode::add, sum, writer.write(Opcode::square, component, 0));
-    past.outputs = {writer.write(Opcode::add_constant, sum, 0, -rim->radius * rim->radius)};
-    conditions.past_edges.push_back(past);
+    ProgramBuilder past(law.input_count);
+    const NumberVector arm = inputs(past, position) - rim->center.cast<ProgramNumber>();
+    const ProgramNumber height = along(rim->normal, arm);
+    conditions.past_edges.push_back(
+        program_of(past, arm.dot(arm) - height * height - ProgramNumber(rim->radius * rim->radius)));
   }
   return conditions;
 }

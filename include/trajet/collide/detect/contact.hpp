@@ -67,8 +67,8 @@ struct ContactResult {
   double gap_curvature = 0.0;    ///< m/s^2
   ContactMemory memory;          ///< for what follows, if the body passes through
 
-  /// How far the time is off where the ball's position is off by `position_error` (m) along the normal, s: dt = dx /
-  /// |gap rate| at a crossing, dx = |gap''| dt^2 / 2 at a graze.
+  /// How far the time is off where the ball's position is off by `position_error` (m) along the normal, s: dt = dx / |gap
+  /// rate| at a crossing, dx = |gap''| dt^2 / 2 at a graze.
   double time_error(double position_error) const {
     if (!(position_error > 0.0)) return 0.0;
     return std::min(position_error / std::abs(gap_rate), std::sqrt(2.0 * position_error / std::abs(gap_curvature)));

@@ -12,8 +12,8 @@ inline bool is_below_flight(double speed, double pull, double tolerance) {
   return speed * speed <= 2.0 * pull * kLowestFlight * tolerance;
 }
 
-/// For how long a body still bounces that leaves an obstacle with `speed`, pulled back with `pull`, before it rests:
-/// all flights to come, 2 u/g (1 + e + e^2 + ...), s. `restitution` < 1.
+/// For how long a body still bounces that leaves an obstacle with `speed`, pulled back with `pull`, before it rests: all
+/// flights to come, 2 u/g (1 + e + e^2 + ...), s. `restitution` < 1.
 inline double bouncing_time(double speed, double pull, double restitution) {
   return 2.0 * std::max(0.0, speed) / (pull * (1.0 - restitution));
 }

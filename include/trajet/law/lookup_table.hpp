@@ -4,21 +4,19 @@
 #include <array>
 #include <concepts>
 #include <limits>
-#include <string>
 #include <type_traits>
 #include <vector>
 
-#include "trajet/error.hpp"
 #include "trajet/math/number.hpp"
 
 namespace trajet {
 
-/// A function given by points: `table("file.csv", x)` of the expressions.
+/// A function given by points: `table("drag", x)` of the expressions, which know it by its name.
 ///
 /// A cubic between neighbouring points whose slopes keep it monotone where the points are (Fritsch and Butland 1984,
 /// the method `pchip`): the value and the slope are continuous, and it never overshoots. Two points make a straight
 /// line. Outside the points it is not-a-number: a run that leaves its data fails rather than makes up values.
-class Table {
+class LookupTable {
  public:
   /// y = c0 + c1 u + c2 u^2 + c3 u^3 with u = x - begin, for x between this cell's begin and the next one's.
   struct Cell {
@@ -27,11 +25,7 @@ class Table {
   };
 
   /// At least two points, x rising, all finite: else std::invalid_argument.
-  Table(const std::vector<double>& x, const std::vector<double>& y);
-
-  /// Reads two columns of numbers, separated by comma, semicolon or blanks, after an optional line of titles.
-  /// Throws FileError if the file cannot be read, InputError that points into it if it is wrong.
-  static Table read(const std::string& path);
+  LookupTable(const std::vector<double>& x, const std::vector<double>& y);
 
   double first() const { return cells_.front().begin; }
   double last() const { return last_; }
@@ -87,8 +81,8 @@ struct Bounds {
 
 template <class T>
 Bounds bounds(const T& x) {
-  if constexpr (std::is_same_v<T, double>) {
-    return {x, x};
+  if constexpr (std::is_floating_point_v<T>) {
+    return {static_cast<double>(x), static_cast<double>(x)};
   } else if constexpr (requires { x.lower(), x.upper(); }) {
     return {x.lower(), x.upper()};
   } else if constexpr (requires { typename T::Coefficient; }) {
@@ -106,7 +100,7 @@ Bounds bounds(const T& x) {
 }  // namespace detail
 
 template <class T>
-T Table::operator()(const T& x) const {
+T LookupTable::operator()(const T& x) const {
   if constexpr (requires { T::transcendental(x); }) {
     return T::transcendental(x);  // PolynomialDegree
   } else {
