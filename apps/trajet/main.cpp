@@ -157,8 +157,8 @@ int main(int argc, char** argv) {
     fmt::print(stderr, "{}\n", error.what());
     // A fault whose place is an option or the program's name stands in the command line, not in the scene.
     const trajet::SourceLocation& place = error.where();
-    const bool is_program = place.file == "trajet" && place.line == 0;
-    return is_program || place.file.starts_with("--") ? trajet::kWrongCommandLine : trajet::kWrongScene;
+    const bool is_program = place.file.str() == "trajet" && place.line == 0;
+    return is_program || place.file.str().starts_with("--") ? trajet::kWrongCommandLine : trajet::kWrongScene;
   } catch (const trajet::FileError& error) {
     fmt::print(stderr, "{}{}\n", error.has_place() ? "" : "error: ", error.what());
     return trajet::kFileFailed;

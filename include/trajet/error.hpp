@@ -1,13 +1,38 @@
 #pragma once
 
+#include <memory>
 #include <stdexcept>
 #include <string>
+#include <string_view>
+#include <utility>
 
 namespace trajet {
 
+/// The name of a text that a user wrote: of a file, or what else messages call it. Copies share it, so that a hundred
+/// thousand places know it at no cost.
+class TextName {
+ public:
+  TextName() = default;
+  TextName(std::string name)  // NOLINT(google-explicit-constructor): a name is a text
+      : name_(name.empty() ? nullptr : std::make_shared<const std::string>(std::move(name))) {}
+  TextName(const char* name) : TextName(std::string(name)) {}  // NOLINT(google-explicit-constructor)
+
+  const std::string& str() const {
+    static const std::string none;
+    return name_ ? *name_ : none;
+  }
+  operator const std::string&() const { return str(); }  // NOLINT(google-explicit-constructor)
+  bool empty() const { return !name_; }
+
+  friend bool operator==(const TextName& a, const TextName& b) { return a.str() == b.str(); }
+
+ private:
+  std::shared_ptr<const std::string> name_;
+};
+
 /// A place in a text that a user wrote. Lines and columns count from 1; 0 means unknown. Columns count bytes.
 struct SourceLocation {
-  std::string file;
+  TextName file;
   int line = 0;
   int column = 0;
 };
@@ -27,7 +52,7 @@ class InputError : public std::runtime_error {
 
  private:
   static std::string format(const SourceLocation& where, const std::string& message) {
-    std::string text = where.file;
+    std::string text = where.file.str();
     if (where.line > 0) {
       if (!text.empty()) text += ':';
       text += std::to_string(where.line) + ':' + std::to_string(where.column);

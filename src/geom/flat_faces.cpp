@@ -3,13 +3,38 @@
 #include <cmath>
 #include <variant>
 
+#include "trajet/geom/distance.hpp"
+#include "trajet/geom/triangle_surface.hpp"
+
 namespace trajet {
 namespace {
+
+/// A point on a surface is on its triangles within so much, of its size and theirs: far above rounding.
+double on_surface(const SurfaceTriangles& surface, const Vector3& point) {
+  constexpr double kOnSurface = 1e-11;
+  return kOnSurface * (point.lpNorm<1>() + surface.spacing);
+}
+
+bool are_parallel(const Vector3& a, const Vector3& b) {
+  constexpr double kTilt = 1e-9;  // rad: far above rounding, far below what an edge's normal is off
+  return a.cross(b).norm() < kTilt;
+}
+
+/// The triangle of a surface on which a point is, or goes on, deepest within: of those with that normal.
+std::optional<Triangle> triangle_at(const SurfaceTriangles& surface, const Vector3& point, const Vector3& normal) {
+  std::optional<Triangle> deepest;
+  for (const int index : triangles_at(surface, point, on_surface(surface, point))) {
+    const Triangle triangle = surface.triangle(index);
+    if (!are_parallel(triangle.normal, normal)) continue;
+    if (!deepest || in_plane_gap(triangle, point) < in_plane_gap(*deepest, point)) deepest = triangle;
+  }
+  return deepest;
+}
 
 /// The direction in which a face of a shape looks, if it is flat there.
 class FlatNormal {
  public:
-  explicit FlatNormal(const Vector3& normal) : normal_(normal) {}
+  FlatNormal(const Vector3& point, const Vector3& normal) : point_(point), normal_(normal) {}
 
   bool operator()(const Plane& plane) const { return is_parallel(plane.normal); }
   bool operator()(const Disk& disk) const { return is_parallel(disk.normal); }
@@ -19,19 +44,20 @@ class FlatNormal {
     return is_parallel(box.R_WB.col(0)) || is_parallel(box.R_WB.col(1)) || is_parallel(box.R_WB.col(2));
   }
   bool operator()(const Sphere&) const { return false; }
-
- private:
-  bool is_parallel(const Vector3& direction) const {
-    constexpr double kTilt = 1e-9;  // rad: far above rounding, far below what an edge's normal is off
-    return normal_.cross(direction).norm() < kTilt;
+  bool operator()(const MeshSurface& surface) const {
+    return triangle_at(*surface.triangles, point_, normal_).has_value();
   }
 
+ private:
+  bool is_parallel(const Vector3& direction) const { return are_parallel(normal_, direction); }
+
+  Vector3 point_;
   Vector3 normal_;
 };
 
 class Outline {
  public:
-  explicit Outline(const Vector3& normal) : normal_(normal) {}
+  Outline(const Vector3& point, const Vector3& normal) : point_(point), normal_(normal) {}
 
   FaceOutline operator()(const Plane&) const { return {}; }
   FaceOutline operator()(const Sphere&) const { return {}; }
@@ -56,6 +82,10 @@ class Outline {
       if (i != face) add_pair(outline, box.center, box.R_WB.col(i), box.half_size[i]);
     return outline;
   }
+  FaceOutline operator()(const MeshSurface& surface) const {
+    const std::optional<Triangle> triangle = triangle_at(*surface.triangles, point_, normal_);
+    return triangle ? (*this)(*triangle) : FaceOutline();
+  }
 
  private:
   static void add_pair(FaceOutline& outline, const Vector3& center, const Vector3& direction, double half_length) {
@@ -63,6 +93,7 @@ class Outline {
     outline.edges.push_back({-direction, -direction.dot(center) + half_length});
   }
 
+  Vector3 point_;
   Vector3 normal_;
 };
 
@@ -73,34 +104,46 @@ struct Thin {
   bool operator()(const Triangle&) const { return true; }
   bool operator()(const Sphere&) const { return false; }
   bool operator()(const Box&) const { return false; }
+  bool operator()(const MeshSurface& surface) const { return !surface.triangles->is_closed; }
 };
 
-/// The normal of a thin shape's positive side.
-struct PositiveSide {
+/// The normal of a thin shape's positive side at a point.
+class PositiveSide {
+ public:
   using Result = std::optional<Vector3>;
+  PositiveSide(const Vector3& point, const Vector3& normal) : point_(point), normal_(normal) {}
+
   Result operator()(const Plane&) const { return std::nullopt; }
   Result operator()(const Disk& disk) const { return disk.normal; }
   Result operator()(const Rectangle& rectangle) const { return rectangle.normal; }
   Result operator()(const Triangle& triangle) const { return triangle.normal; }
   Result operator()(const Sphere&) const { return std::nullopt; }
   Result operator()(const Box&) const { return std::nullopt; }
+  Result operator()(const MeshSurface& surface) const {
+    const std::optional<Triangle> triangle = triangle_at(*surface.triangles, point_, normal_);
+    return triangle ? Result(triangle->normal) : std::nullopt;
+  }
+
+ private:
+  Vector3 point_;
+  Vector3 normal_;
 };
 
 }  // namespace
 
 bool is_thin(const Shape& shape) { return std::visit(Thin(), shape); }
 
-bool looks_down(const Shape& shape, const Vector3& normal) {
-  const std::optional<Vector3> positive = std::visit(PositiveSide(), shape);
+bool looks_down(const Shape& shape, const Vector3& point, const Vector3& normal) {
+  const std::optional<Vector3> positive = std::visit(PositiveSide(point, normal), shape);
   return positive && positive->dot(normal) < 0.0;
 }
 
-bool is_flat_at(const Shape& shape, const Vector3& /*point*/, const Vector3& normal) {
-  return std::visit(FlatNormal(normal), shape);
+bool is_flat_at(const Shape& shape, const Vector3& point, const Vector3& normal) {
+  return std::visit(FlatNormal(point, normal), shape);
 }
 
-FaceOutline face_outline(const Shape& shape, const Vector3& /*point*/, const Vector3& normal) {
-  return std::visit(Outline(normal), shape);
+FaceOutline face_outline(const Shape& shape, const Vector3& point, const Vector3& normal) {
+  return std::visit(Outline(point, normal), shape);
 }
 
 bool moves_off(const FaceOutline& outline, const Vector3& position, const Vector3& velocity) {

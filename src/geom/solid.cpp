@@ -15,15 +15,27 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// Moved to the centre of mass.
-std::shared_ptr<const Polyhedron> centered(TriangleMesh surface) {
-  const VolumeProperties properties = mesh_properties(surface);
+/// Moved to a place that becomes the origin.
+std::shared_ptr<const Polyhedron> centered(TriangleMesh surface, const Vector3& origin,
+                                           const std::optional<VolumeProperties>& properties) {
   double radius = 0.0;
   for (Vector3& vertex : surface.vertices) {
-    vertex -= properties.center;
+    vertex -= origin;
     radius = std::max(radius, vertex.norm());
   }
   return std::make_shared<const Polyhedron>(Polyhedron{std::move(surface), radius, properties});
+}
+
+/// Moved to the centre of mass.
+std::shared_ptr<const Polyhedron> centered(TriangleMesh surface) {
+  const VolumeProperties properties = mesh_properties(surface);
+  return centered(std::move(surface), properties.center, properties);
+}
+
+Vector3 middle_of_box(const TriangleMesh& surface) {
+  Aabb box;
+  for (const Vector3& vertex : surface.vertices) box = united(box, vertex);
+  return 0.5 * (box.lower + box.upper);
 }
 
 struct BoundingRadius {
@@ -177,6 +189,12 @@ struct PictureMesh {
 Hull make_hull(std::span<const Vector3> points) { return {centered(convex_hull(points))}; }
 
 Mesh make_closed_mesh(const TriangleMesh& surface) { return {centered(closed_mesh(surface))}; }
+
+CenteredMesh make_mesh(TriangleMesh surface, bool is_closed) {
+  const std::optional<VolumeProperties> properties = is_closed ? std::optional(mesh_properties(surface)) : std::nullopt;
+  const Vector3 origin = properties ? properties->center : middle_of_box(surface);
+  return {{centered(std::move(surface), origin, properties)}, origin};
+}
 
 double bounding_radius(const Solid& solid) { return std::visit(BoundingRadius(), solid); }
 

@@ -7,6 +7,7 @@
 #include <span>
 
 #include "trajet/geom/faces.hpp"
+#include "trajet/geom/triangle_surface.hpp"
 
 namespace trajet::detail {
 
@@ -137,6 +138,10 @@ Pose pose_of(const Sphere& sphere, const Extent&) { return {sphere.center, Quate
 
 Pose pose_of(const Box& box, const Extent&) { return {box.center, Quaternion(box.R_WB)}; }
 
+Pose pose_of(const MeshSurface& surface, const Extent&) {
+  return {bounding_ball(surface).center, Quaternion::Identity()};
+}
+
 GltfMesh mesh_of(const Plane&, const Extent& extent) {
   const double side = 2.0 * kPlaneHalf * extent.size;
   return polygon_mesh(face(make_rectangle(Vector3::Zero(), Vector3::UnitZ(), Vector3::UnitY(), side, side)));
@@ -164,6 +169,18 @@ GltfMesh mesh_of(const Box& box, const Extent&) {
   GltfMesh mesh;
   for (const Face& each : faces(Box{Vector3::Zero(), box.half_size, Matrix3::Identity()}))
     add_polygon(mesh, each.corners, each.normal);
+  return mesh;
+}
+
+GltfMesh mesh_of(const MeshSurface& surface, const Extent&) {
+  const Vector3 origin = bounding_ball(surface).center;
+  GltfMesh mesh;
+  for (int i = 0; i < surface.triangles->size(); ++i) {
+    const Triangle triangle = surface.triangles->triangle(i);
+    const Vector3 corners[3] = {triangle.corners[0] - origin, triangle.corners[1] - origin,
+                                triangle.corners[2] - origin};
+    add_polygon(mesh, corners, triangle.normal);
+  }
   return mesh;
 }
 

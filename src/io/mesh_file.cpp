@@ -14,7 +14,7 @@ namespace trajet::detail {
 TriangleMesh read_mesh(const TableReader& table) {
   const std::string name = table.text("file");
 #ifdef TRAJET_WITH_ASSIMP
-  const std::filesystem::path path = std::filesystem::path(table.where().file).parent_path() / name;
+  const std::filesystem::path path = std::filesystem::path(table.where().file.str()).parent_path() / name;
   Assimp::Importer importer;
   // lines and points have no volume
   importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE, aiPrimitiveType_LINE | aiPrimitiveType_POINT);

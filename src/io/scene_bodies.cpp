@@ -1,6 +1,5 @@
 #include <array>
 
-#include "mesh_file.hpp"
 #include "scene_solids.hpp"
 
 namespace trajet::detail {
@@ -10,12 +9,6 @@ namespace {
 using Keys = std::vector<std::string_view>;
 
 ShapeDefinition read_hull(const TableReader& table) { return HullShape{table.vector_list("points", kLength)}; }
-
-ShapeDefinition read_mesh_shape(const TableReader& table) {
-  MeshShape shape{read_mesh(table)};
-  if (table.has("scale")) shape.scale = table.scalar("scale", kDimensionless);
-  return shape;
-}
 
 /// Shapes of bodies: one row each, with the keys that describe them.
 struct BodyKind {
@@ -44,7 +37,7 @@ const std::array<BodyKind, 8>& body_kinds() {
          return ShapeDefinition(CapsuleShape{t.scalar("radius", kLength), t.scalar("height", kLength)});
        }},
       {"hull", {}, read_hull},  // its `points` are the corners
-      {"mesh", {"file", "scale"}, read_mesh_shape},
+      {"mesh", {"file", "scale"}, [](Table t) { return ShapeDefinition(read_mesh_shape(t)); }},
   }};
   return kinds;
 }

@@ -32,7 +32,7 @@ class SceneReader {
     root.check_keys(kKeys);
 
     Scene scene;
-    scene.file = document_.file();
+    scene.file = document_.file().str();
     if (root.has("title")) scene.title = root.text("title");
     if (root.has("parameters")) scene.parameters = named_formulas(root.subtable("parameters").titled("[parameters]"));
     if (!root.has("time")) throw InputError(root.where(), "the scene lacks the table [time] with the key 'end'");

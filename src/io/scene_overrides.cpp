@@ -27,7 +27,7 @@ void keep_dimension(const Measure& before, const NamedExpression& parameter, Sce
   const std::string fault = dimension_fault(now, before.dimension);
   if (!fault.empty()) throw InputError(parameter.where, fault);
   if (now.kind != Measure::Kind::known && before.dimension != kDimensionless)
-    scene.warnings.push_back(parameter.where.file + "=" + parameter.value.text() +
+    scene.warnings.push_back(parameter.where.file.str() + "=" + parameter.value.text() +
                              " has no unit, where the scene has one: taken as " + describe(before.dimension));
 }
 

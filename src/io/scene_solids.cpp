@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 
+#include "mesh_file.hpp"
+
 namespace trajet::detail {
 
 OrientationDefinition read_orientation(const TableReader& table) {
@@ -40,6 +42,12 @@ std::optional<RgbColor> read_color(const TableReader& table) {
   return color;
 }
 
+MeshShape read_mesh_shape(const TableReader& table) {
+  MeshShape shape{read_mesh(table)};
+  if (table.has("scale")) shape.scale = table.scalar("scale", kDimensionless);
+  return shape;
+}
+
 namespace {
 
 using Keys = std::vector<std::string_view>;
@@ -73,18 +81,24 @@ ShapeDefinition read_cuboid(const TableReader& table) { return CuboidShape{table
 struct ObstacleKind {
   std::string_view name;
   std::string_view center;  ///< the key that says where it is; none: its own keys say so
-  Keys keys;                ///< that describe it, without `center`
+  bool needs_center;
+  Keys keys;  ///< that describe it, without `center`
   ShapeDefinition (*read)(const TableReader&);
 };
 
-const std::array<ObstacleKind, 6>& obstacle_kinds() {
-  static const std::array<ObstacleKind, 6> kinds{{
-      {"plane", "point", {"normal"}, read_plane},
-      {"disk", "center", {"normal", "radius"}, read_disk},
-      {"rectangle", "center", {"normal", "up", "size"}, read_rectangle},
-      {"triangle", "", {"points"}, read_triangle},
-      {"sphere", "center", {"radius"}, read_ball},
-      {"box", "center", {"size", "orientation"}, read_cuboid},
+const std::array<ObstacleKind, 7>& obstacle_kinds() {
+  static const std::array<ObstacleKind, 7> kinds{{
+      {"plane", "point", true, {"normal"}, read_plane},
+      {"disk", "center", true, {"normal", "radius"}, read_disk},
+      {"rectangle", "center", true, {"normal", "up", "size"}, read_rectangle},
+      {"triangle", "", false, {"points"}, read_triangle},
+      {"sphere", "center", true, {"radius"}, read_ball},
+      {"box", "center", true, {"size", "orientation"}, read_cuboid},
+      {"mesh",
+       "center",
+       false,
+       {"file", "scale", "orientation"},
+       [](const TableReader& t) { return ShapeDefinition(read_mesh_shape(t)); }},
   }};
   return kinds;
 }
@@ -94,12 +108,12 @@ const std::array<ObstacleKind, 6>& obstacle_kinds() {
 ObstacleDefinition read_obstacle(const TableReader& table) {
   std::vector<std::string_view> shapes;
   for (const ObstacleKind& kind : obstacle_kinds()) shapes.push_back(kind.name);
-  constexpr std::array<std::string_view, 4> kPlannedShapes{"cylinder", "capsule", "hull", "mesh"};
+  constexpr std::array<std::string_view, 3> kPlannedShapes{"cylinder", "capsule", "hull"};
   if (!table.has("shape")) throw InputError(table.where(), table.title() + " lacks the key 'shape'");
   const ObstacleKind& kind = obstacle_kinds()[table.choice("shape", shapes, 0, kPlannedShapes)];
 
   const Keys common = {"name", "shape", "on_hit", "restitution", "color"};
-  Keys planned = {"friction", "velocity", "angular_velocity", "file", "scale"};
+  const Keys planned = {"friction", "velocity", "angular_velocity"};
   const std::string with_shape = table.title() + " of shape " + std::string(kind.name);
   TableReader titled = table.titled(with_shape);
   const bool has_center = !kind.center.empty();
@@ -109,7 +123,8 @@ ObstacleDefinition read_obstacle(const TableReader& table) {
   constexpr std::array<std::string_view, 1> kPlannedOnHit{"stick"};
   ObstacleDefinition obstacle{.name = table.text("name"), .shape = PointShape{}};
   obstacle.where = table.where("name");
-  if (has_center) obstacle.center = titled.vector(kind.center, kLength);
+  if (kind.needs_center || (has_center && titled.has(kind.center)))
+    obstacle.center = titled.vector(kind.center, kLength);
   obstacle.shape = kind.read(titled);
   if (titled.has("orientation")) obstacle.orientation = read_orientation(titled.subtable("orientation"));
   obstacle.on_hit =

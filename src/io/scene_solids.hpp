@@ -11,6 +11,9 @@ OrientationDefinition read_orientation(const TableReader& table);
 /// Reads the `color` of a body or an obstacle, if it has one.
 std::optional<RgbColor> read_color(const TableReader& table);
 
+/// The shape `mesh`, of bodies and obstacles.
+MeshShape read_mesh_shape(const TableReader& table);
+
 /// Reads a table `[[body]]`.
 BodyDefinition read_body(const TableReader& table);
 

@@ -43,7 +43,7 @@ TomlDocument::TomlDocument(std::string text, std::string file) : text_(std::move
   for (std::size_t i = 0; i < text_.size(); ++i)
     if (text_[i] == '\n') line_offsets_.push_back(i + 1);
   try {
-    root_ = toml::parse(text_, file_);
+    root_ = toml::parse(text_, file_.str());
   } catch (const toml::parse_error& error) {
     throw InputError(location(error.source().begin), std::string(error.description()));
   }

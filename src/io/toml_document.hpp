@@ -24,7 +24,7 @@ class TomlDocument {
   TomlDocument(std::string text, std::string file);
 
   const toml::table& root() const { return root_; }
-  const std::string& file() const { return file_; }
+  const TextName& file() const { return file_; }
 
   SourceLocation location(const toml::node& node) const { return location(node.source().begin); }
   SourceLocation location(const toml::key& key) const { return location(key.source().begin); }
@@ -42,7 +42,7 @@ class TomlDocument {
   std::size_t offset(const toml::source_position& position) const;
 
   std::string text_;
-  std::string file_;
+  TextName file_;
   std::vector<std::size_t> line_offsets_;
   toml::table root_;
 };

@@ -137,7 +137,7 @@ class LawReading {
   }
 
   static std::string place(const SourceLocation& where) {
-    std::string text = where.file;
+    std::string text = where.file.str();
     if (where.line > 0)
       text += (text.empty() ? "" : ":") + std::to_string(where.line) + ":" + std::to_string(where.column);
     return text.empty() ? text : text + ": ";

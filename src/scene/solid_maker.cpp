@@ -4,6 +4,8 @@
 #include <utility>
 #include <vector>
 
+#include "trajet/geom/triangle_surface.hpp"
+
 namespace trajet {
 namespace {
 
@@ -126,7 +128,15 @@ class FixedSolid {
   World::Obstacle operator()(const CapsuleShape&) const { return refuse("capsule"); }
   World::Obstacle operator()(const SoccerBallShape&) const { return refuse("soccer ball"); }
   World::Obstacle operator()(const HullShape&) const { return refuse("hull"); }
-  World::Obstacle operator()(const MeshShape&) const { return refuse("mesh"); }
+  World::Obstacle operator()(const MeshShape& shape) const {
+    TriangleMesh mesh = scaled(shape, numbers_);
+    for (Vector3& vertex : mesh.vertices) vertex = center_ + R_WB_ * vertex;
+    MeshSurface surface = make_mesh_surface(mesh);
+    mesh = surface.triangles->mesh;
+    for (Vector3& vertex : mesh.vertices) vertex = R_WB_.transpose() * (vertex - center_);
+    const CenteredMesh solid = make_mesh(std::move(mesh), surface.triangles->is_closed);
+    return placed(solid.mesh, center_ + R_WB_ * solid.origin, R_WB_, std::move(surface));
+  }
 
  private:
   [[noreturn]] static World::Obstacle refuse(const std::string& shape) {

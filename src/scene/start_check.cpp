@@ -3,6 +3,7 @@
 #include <variant>
 
 #include "trajet/geom/distance.hpp"
+#include "trajet/geom/triangle_surface.hpp"
 
 namespace trajet {
 namespace {

@@ -107,7 +107,7 @@ void Course::restart(const Instant& instant) {
   error_.pass(law(), segment_, t);
   error_.jump(instant.derivative);
   const auto same = [](const RestingContact& a, const RestingContact& b) {
-    return a.body == b.body && a.obstacle == b.obstacle && a.normal == b.normal;
+    return a.body == b.body && a.obstacle == b.obstacle && a.normal == b.normal && a.point == b.point;
   };
   if (!std::ranges::equal(contacts_, instant.contacts, same)) {
     contacts_ = instant.contacts;

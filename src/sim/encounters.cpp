@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <variant>
 
 #include "trajet/collide/detect/contact_table.hpp"
 #include "trajet/event/path.hpp"
@@ -13,18 +12,6 @@ namespace {
 /// So many obstacles are searched one by one; a piece of a Segment is as long as it meets no more.
 constexpr std::size_t kFew = 8;
 
-Aabb bounding_box(const Shape& shape) {
-  const auto box = [](const auto& s) {
-    if constexpr (requires { bounding_ball(s); }) {
-      const BoundingBall ball = bounding_ball(s);
-      return grown(united(Aabb(), ball.center), ball.radius);
-    } else {
-      return unbounded_box();
-    }
-  };
-  return std::visit(box, shape);
-}
-
 }  // namespace
 
 Encounters::Encounters(const World& world) : world_(world), bodies_(world.bodies.size()) {
@@ -32,7 +19,8 @@ Encounters::Encounters(const World& world) : world_(world), bodies_(world.bodies
   const bool walks = world.obstacles.size() > kFew && world.locate == Locator::polynomial;
   std::vector<Aabb> boxes;
   for (std::size_t i = 0; i < world.obstacles.size(); ++i) {
-    const Aabb box = walks ? bounding_box(world.obstacles[i].shape) : unbounded_box();
+    const World::Obstacle& obstacle = world.obstacles[i];
+    const Aabb box = walks ? bounds(obstacle.solid, obstacle.p_WB, rotation_matrix(obstacle.q_WB)) : unbounded_box();
     (is_bounded(box) ? in_tree_ : always_).push_back(static_cast<int>(i));
     if (is_bounded(box)) boxes.push_back(box);
   }

@@ -12,17 +12,26 @@
 namespace trajet {
 namespace {
 
+/// A point of a face a little ahead of where a body is: at an edge, in the face into which it moves.
+Vector3 ahead_of(const Vector3& point, const Vector3& velocity) {
+  constexpr double kAhead = 1e-9;  // of the size of the coordinates
+  return point + kAhead * point.norm() * velocity.stableNormalized();
+}
+
 Vector3 closest_point_of(const Shape& shape, const Vector3& p) {
   return std::visit([&](const auto& s) { return closest_point(s, p); }, shape);
 }
 
 }  // namespace
 
-void LastingContacts::begin(Instant& instant, PairId id, const Vector3& normal, const Vector3& point, double rest_time,
-                            double time_error_bound) {
-  instant.contacts.push_back({id.body, id.obstacle, body(id.body).offset, normal, point, normal});
+void LastingContacts::begin(Instant& instant, PairId id, const Impact& impact, double rest_time) {
+  const int offset = body(id.body).offset;
+  const Vector3 velocity = instant.q.segment<3>(offset + 3);
+  const Vector3 along = velocity - velocity.dot(impact.normal) * impact.normal;
+  instant.contacts.push_back(
+      {id.body, id.obstacle, offset, impact.normal, ahead_of(impact.point, along), impact.normal});
   instant.stop_blocked_velocity(body(id.body).offset);
-  coming_.insert({rest_time, id, time_error_bound});
+  coming_.insert({rest_time, id, impact.time_error_bound});
 }
 
 void LastingContacts::release_by_speed(Instant& instant, int moved) {
@@ -121,24 +130,27 @@ void LastingContacts::rest_on_continuation(Instant& instant, const RestingContac
   const Vector3 velocity = instant.q.segment<3>(left.offset + 3);
   const double radius = bounding_radius(moving.solid);
   const Vector3 foot = position - radius * left.normal;
+  const Vector3 ahead = ahead_of(foot, velocity);
   const double size = position.norm() + radius;
   const auto continues = [&](const Pair& pair) {
     const World::Obstacle& next = obstacle(pair.id.obstacle);
-    if (pair.is_lasting || next.on_hit != OnHit::bounce || !is_flat_at(next.shape, foot, left.normal)) return false;
+    // another face of the same obstacle may be next
+    const bool is_taken = pair.is_lasting && pair.id.obstacle != left.obstacle;
+    if (is_taken || next.on_hit != OnHit::bounce || !is_flat_at(next.shape, ahead, left.normal)) return false;
     const Vector3 above = foot + size * left.normal;
     constexpr double kStep = 1e-12;  // a step this high, of the place and the size, is none
     return (closest_point_of(next.shape, above) - foot).norm() <= kStep * size &&
-           !moves_off(face_outline(next.shape, foot, left.normal), position, velocity);
+           !moves_off(face_outline(next.shape, ahead, left.normal), position, velocity);
   };
   const std::vector<Pair>& pairs = encounters_.pairs(left.body);
   const auto found = std::ranges::find_if(pairs, continues);
   if (found == pairs.end()) return;
   RestingContact next = left;
   next.obstacle = found->id.obstacle;
-  next.point = foot;
+  next.point = ahead;
   record(next, ImpactKind::rest, instant.time(), instant.q);
   instant.contacts.push_back({next.body, next.obstacle, next.offset, next.normal, next.point, next.normal});
-  const bool is_behind = radius == 0.0 && looks_down(obstacle(next.obstacle).shape, left.normal);
+  const bool is_behind = radius == 0.0 && looks_down(obstacle(next.obstacle).shape, ahead, left.normal);
   instant.memories.emplace_back(found->id, ContactMemory{.side = is_behind ? -1 : 1, .contact_time = instant.time()});
 }
 

@@ -18,10 +18,9 @@ class LastingContacts {
   LastingContacts(const World& world, const Recorder::Courses& courses, Encounters& encounters, Recorder& recorder)
       : world_(world), courses_(courses), encounters_(encounters), recorder_(recorder) {}
 
-  /// The body stays on the obstacle from the instant on. Its last flights, which nobody can tell from contact, would be
+  /// The body stays on the obstacle from the impact on. Its last flights, which nobody can tell from contact, would be
   /// over at `rest_time`: then the rest is reported.
-  void begin(Instant& instant, PairId id, const Vector3& normal, const Vector3& point, double rest_time,
-             double time_error_bound);
+  void begin(Instant& instant, PairId id, const Impact& impact, double rest_time);
   /// After an impact that gave a resting body its velocity: ends the contacts from or into which it moves now, and
   /// takes out of the velocity what the others do not let pass.
   void release_by_speed(Instant& instant, int body);

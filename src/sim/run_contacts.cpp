@@ -140,8 +140,7 @@ bool RunLoop::rest(Instant& instant, const Pair& pair, const Impact& impact, boo
                 "' too slowly to leave it, where trajet cannot follow it");
     return false;
   }
-  lasting_contacts_.begin(instant, pair.id, impact.normal, impact.point,
-                          t + bouncing_time(speed, pull, obstacle.restitution), impact.time_error_bound);
+  lasting_contacts_.begin(instant, pair.id, impact, t + bouncing_time(speed, pull, obstacle.restitution));
   lasting_contacts_.release_by_force(instant, pair.id.body);
   return true;
 }

@@ -4,6 +4,8 @@
 #include <utility>
 #include <variant>
 
+#include "trajet/geom/triangle_surface.hpp"
+
 namespace trajet::detail {
 
 namespace {
@@ -44,6 +46,17 @@ std::vector<Face> faces_of(const Triangle& triangle, const Eigen::AlignedBox3d&)
 std::vector<Face> faces_of(const Sphere&, const Eigen::AlignedBox3d&) { return {}; }
 std::vector<Face> faces_of(const Box& box, const Eigen::AlignedBox3d&) {
   const auto sides = faces(box);
+  return {sides.begin(), sides.end()};
+}
+
+/// A surface of very many triangles is drawn as the box around it.
+std::vector<Face> faces_of(const MeshSurface& surface, const Eigen::AlignedBox3d&) {
+  constexpr int kMostTriangles = 4000;
+  const TriangleMesh& mesh = surface.triangles->mesh;
+  if (surface.triangles->size() <= kMostTriangles) return faces(mesh);
+  Eigen::AlignedBox3d around;
+  for (const Vector3& vertex : mesh.vertices) around.extend(vertex);
+  const auto sides = faces(Box{around.center(), 0.5 * around.sizes(), Matrix3::Identity()});
   return {sides.begin(), sides.end()};
 }
 

@@ -47,7 +47,7 @@ std::string page_html(const std::vector<PageRun>& runs, const PageOptions& optio
 
 std::string error_page_html(const InputError& error, const std::string& text, const PageOptions& options) {
   return fill_template({{"error",
-                         {{"file", error.where().file},
+                         {{"file", error.where().file.str()},
                           {"line", error.where().line},
                           {"column", error.where().column},
                           {"message", error.message()},

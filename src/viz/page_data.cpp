@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "base64.hpp"
+#include "trajet/geom/triangle_surface.hpp"
 
 namespace trajet::detail {
 
@@ -45,6 +46,14 @@ Json object(const Box& box) {
           {"center", array(box.center)},
           {"size", array(2.0 * box.half_size)},
           {"axes", {array(R.col(0)), array(R.col(1)), array(R.col(2))}}};
+}
+
+Json object(const MeshSurface& surface) {
+  const TriangleMesh& mesh = surface.triangles->mesh;
+  Json shape = {{"kind", "mesh"}, {"vertices", Json::array()}, {"triangles", mesh.triangles}};
+  for (const Vector3& vertex : mesh.vertices) shape["vertices"].push_back(array(vertex));
+  shape["closed"] = surface.triangles->is_closed;
+  return shape;
 }
 
 /// Degrees are packed into doubles, which hold integers of 53 bits.

@@ -105,7 +105,9 @@ export type ObstacleShape =
   | { kind: "triangle"; corners: [Vector, Vector, Vector] }
   | { kind: "sphere"; center: Vector; radius: number }
   /** `axes`: the columns of R_WB. */
-  | { kind: "box"; center: Vector; size: Vector; axes: [Vector, Vector, Vector] };
+  | { kind: "box"; center: Vector; size: Vector; axes: [Vector, Vector, Vector] }
+  /** Triangles: indices of three vertices each. `closed`: it encloses matter. */
+  | { kind: "mesh"; vertices: Vector[]; triangles: Vector[]; closed: boolean };
 
 export interface ObstacleData {
   name: string;

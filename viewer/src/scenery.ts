@@ -81,12 +81,13 @@ export class Scenery {
   private addObstacle({ name, color }: ObstacleData, shape: Exclude<ObstacleShape, { kind: "plane" }>): void {
     const geometry = obstacleGeometry(shape);
     const { scale } = this.frame;
-    const isClosed = shape.kind === "sphere" || shape.kind === "box";
+    const isClosed = shape.kind === "sphere" || shape.kind === "box" || (shape.kind === "mesh" && shape.closed);
     const material = isClosed ? this.closed : this.flat;
     const mesh = new THREE.Mesh(geometry, color ? material.clone() : material);
     if (color) mesh.material.color.set(color);
     mesh.scale.setScalar(scale);
-    const center: Vector = shape.kind === "triangle" ? shape.corners[0] : shape.center;
+    const center: Vector =
+      shape.kind === "triangle" ? shape.corners[0] : shape.kind === "mesh" ? shape.vertices[0] : shape.center;
     mesh.position.copy(this.frame.toView(center));
     const outline = new THREE.LineSegments(new THREE.EdgesGeometry(geometry, 20), this.edges);
     mesh.add(outline);
@@ -150,7 +151,7 @@ export class Scenery {
   }
 }
 
-/** An obstacle about its centre (a triangle about its first corner), in metres. */
+/** An obstacle about its centre (a triangle or a mesh about its first corner), in metres. */
 function obstacleGeometry(shape: Exclude<ObstacleShape, { kind: "plane" }>): THREE.BufferGeometry {
   switch (shape.kind) {
     case "sphere":
@@ -167,6 +168,13 @@ function obstacleGeometry(shape: Exclude<ObstacleShape, { kind: "plane" }>): THR
     case "triangle": {
       const [a, b, c] = shape.corners.map(vector);
       const geometry = new THREE.BufferGeometry().setFromPoints([new THREE.Vector3(), b.sub(a), c.sub(a)]);
+      geometry.computeVertexNormals();
+      return geometry;
+    }
+    case "mesh": {
+      const corners = shape.triangles.flatMap((triangle) => triangle.map((corner) => vector(shape.vertices[corner])));
+      const origin = vector(shape.vertices[0]);
+      const geometry = new THREE.BufferGeometry().setFromPoints(corners.map((corner) => corner.sub(origin)));
       geometry.computeVertexNormals();
       return geometry;
     }

@@ -68,6 +68,8 @@ function obstacleBox(shape: ObstacleShape): THREE.Box3 | null {
       return null;
     case "triangle":
       return new THREE.Box3().setFromPoints(shape.corners.map(vector));
+    case "mesh":
+      return new THREE.Box3().setFromPoints(shape.vertices.map(vector));
     case "rectangle": {
       const reach = 0.5 * Math.hypot(shape.width, shape.height);
       return ball(shape.center, reach);

@@ -2,11 +2,10 @@
 
 #include <Eigen/Core>
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "trajet/event/path.hpp"
-#include "trajet/math/bernstein.hpp"
+#include "trajet/event/polynomial_enclosure.hpp"
 #include "trajet/math/interval.hpp"
 #include "trajet/math/root_search.hpp"
 
@@ -40,7 +39,8 @@ class ComposedFunction {
   bool may_be_undefined() const { return may_be_undefined_; }
 
   IntervalJet piece(double from, double to) const {
-    IntervalJet f = evaluate(Interval::hull(from, to), [&](int i) { return enclose(path_.coefficients(i), from, to); });
+    IntervalJet f =
+        evaluate(Interval::hull(from, to), [&](int i) { return enclose_polynomial(path_.coefficients(i), from, to); });
     // over a pole the derivatives tell nothing
     if (std::isinf(f[0].lower()) || std::isinf(f[0].upper())) f[1] = f[2] = Interval::whole();
     const double middle = 0.5 * from + 0.5 * to;
@@ -63,8 +63,6 @@ class ComposedFunction {
 
  private:
   static Range range(const Interval& x) { return {x.lower(), x.upper()}; }
-  static Interval interval(const Range& r) { return {r.lower, r.upper}; }
-  static Interval around(double x, double error) { return {x - error, x + error}; }
 
   /// Both enclose the same numbers. Not-a-number bounds, where a derivative is not finite, make an empty interval.
   static Interval tightened(const Interval& a, const Interval& b) { return empty(b) ? a : intersect(a, b); }
@@ -77,43 +75,7 @@ class ComposedFunction {
   }
 
   IntervalJet at_time(double tau) const {
-    return evaluate(Interval(tau), [&](int i) {
-      const MeasuredJet m = evaluate_polynomial(path_.coefficients(i), tau);
-      const double error = BernsteinForm::roundings(path_.degree()) * kUnitRoundoff * m.magnitude;
-      IntervalJet x(around(m.jet.value, error));
-      x[1] = m.jet.rate;
-      x[2] = 0.5 * m.jet.curvature;
-      return x;
-    });
-  }
-
-  static IntervalJet enclose(std::span<const double> coefficients, double from, double to) {
-    const BernsteinForm form(coefficients, from, to);
-    const Interval h = Interval(to) - Interval(from);
-    IntervalJet x(interval(form.value_range()));
-    if (form.is_nearly_straight()) {
-      // differences of rounded coefficients over a short time say little of the derivatives
-      std::array<double, kMaxPolynomialDegree + 1> derivative;
-      std::ranges::copy(coefficients, derivative.begin());
-      std::span<double> d(derivative.data(), coefficients.size());
-      for (const int order : {1, 2}) {
-        d = differentiate(d);
-        x[order] = interval(BernsteinForm(d, from, to).value_range()) / static_cast<double>(order);
-      }
-      return x;
-    }
-    x[1] = interval(form.first_difference_range()) / h;
-    x[2] = interval(form.second_difference_range()) / (2.0 * square(h));
-    return x;
-  }
-
-  /// Turns the coefficients of a polynomial into those of its derivative; a constant's is one zero.
-  static std::span<double> differentiate(std::span<double> coefficients) {
-    for (std::size_t k = 1; k < coefficients.size(); ++k)
-      coefficients[k - 1] = static_cast<double>(k) * coefficients[k];
-    if (coefficients.size() > 1) return coefficients.first(coefficients.size() - 1);
-    coefficients[0] = 0.0;
-    return coefficients;
+    return evaluate(Interval(tau), [&](int i) { return enclose_polynomial(path_.coefficients(i), tau); });
   }
 
   const Path<Count>& path_;

@@ -69,4 +69,12 @@ Vector3T<T> closest_point(const Box& box, const Vector3T<T>& p) {
   return box.center.cast<T>() + box.R_WB.cast<T>() * nearest;
 }
 
+/// The triangle of a surface that is nearest to p.
+Triangle nearest_triangle(const MeshSurface& surface, const Vector3& p);
+
+template <class T>
+Vector3T<T> closest_point(const MeshSurface& surface, const Vector3T<T>& p) {
+  return closest_point(nearest_triangle(surface, Vector3(p.template cast<double>())), p);
+}
+
 }  // namespace trajet

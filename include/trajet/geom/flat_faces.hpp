@@ -12,8 +12,9 @@ namespace trajet {
 /// Whether a shape is thin: it has two sides, and nothing within.
 bool is_thin(const Shape& shape);
 
-/// Whether a point just above a face with that normal is on the negative side of a thin shape; never of a solid.
-bool looks_down(const Shape& shape, const Vector3& normal);
+/// Whether a point just above a face, at a point of it with that normal, is on the negative side of a thin shape; never
+/// of a solid.
+bool looks_down(const Shape& shape, const Vector3& point, const Vector3& normal);
 
 /// Whether a body can rest on a shape at a point of its surface where its normal is `normal`: on a flat face; not on a
 /// curved surface, an edge, a corner.
@@ -39,6 +40,8 @@ struct FaceOutline {
 };
 
 /// The outline of the face at a point of a shape's surface where its normal is `normal`; a face without end has none.
+/// Of a surface of triangles it is that of one of them: at an edge, give a point a little ahead in the one that is
+/// meant.
 FaceOutline face_outline(const Shape& shape, const Vector3& point, const Vector3& normal);
 
 /// Whether a body whose centre is at `position`, above the point of a face, is at an edge of it and moves off it.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <variant>
 
 #include "trajet/math/vector.hpp"
@@ -52,7 +53,15 @@ struct Box {
   Matrix3 R_WB;       ///< its columns are the box's axes in the world
 };
 
-using Shape = std::variant<Plane, Disk, Rectangle, Triangle, Sphere, Box>;
+struct SurfaceTriangles;
+
+/// A surface of triangles: what it encloses where it is closed, else thin and two-sided. `make_mesh_surface`
+/// (triangle_surface.hpp) makes it.
+struct MeshSurface {
+  std::shared_ptr<const SurfaceTriangles> triangles;
+};
+
+using Shape = std::variant<Plane, Disk, Rectangle, Triangle, Sphere, Box, MeshSurface>;
 
 /// `normal`: any length but zero.
 Plane make_plane(const Vector3& point, const Vector3& normal);
@@ -77,5 +86,6 @@ BoundingBall bounding_ball(const Rectangle& rectangle);
 BoundingBall bounding_ball(const Triangle& triangle);
 BoundingBall bounding_ball(const Sphere& sphere);
 BoundingBall bounding_ball(const Box& box);
+BoundingBall bounding_ball(const MeshSurface& surface);
 
 }  // namespace trajet

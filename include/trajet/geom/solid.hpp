@@ -82,6 +82,14 @@ Hull make_hull(std::span<const Vector3> points);
 /// A closed surface, moved to its centre of mass. Throws std::domain_error as `closed_mesh` does.
 Mesh make_closed_mesh(const TriangleMesh& surface);
 
+/// A surface, moved to its centre of mass, or to the middle of the box around it where it is open.
+struct CenteredMesh {
+  Mesh mesh;
+  Vector3 origin;  ///< of the mesh's frame in the surface's
+};
+/// Throws std::domain_error if the surface is said to be closed and encloses no volume.
+CenteredMesh make_mesh(TriangleMesh surface, bool is_closed);
+
 /// The distance of the farthest point from the origin; infinite for a half space.
 double bounding_radius(const Solid& solid);
 

@@ -30,6 +30,7 @@ ContactResult first_contact_with(const Rectangle& rectangle, const MovingBall& b
 ContactResult first_contact_with(const Triangle& triangle, const MovingBall& ball, const ContactMemory& memory);
 ContactResult first_contact_with(const Sphere& sphere, const MovingBall& ball, const ContactMemory& memory);
 ContactResult first_contact_with(const Box& box, const MovingBall& ball, const ContactMemory& memory);
+ContactResult first_contact_with(const MeshSurface& surface, const MovingBall& ball, const ContactMemory& memory);
 
 /// The first contact of a ball with a shape.
 ///

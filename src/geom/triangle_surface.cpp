@@ -1,0 +1,235 @@
+#include "trajet/geom/triangle_surface.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <numbers>
+#include <stdexcept>
+#include <utility>
+
+#include "trajet/geom/closest_point.hpp"
+
+namespace trajet {
+namespace {
+
+using Corners = std::array<int, 3>;
+
+const Vector3& vertex(const TriangleMesh& mesh, int i) { return mesh.vertices[static_cast<std::size_t>(i)]; }
+
+/// A well-mixed number of 64 bits (the last steps of MurmurHash3).
+std::uint64_t mixed(std::uint64_t x) {
+  x = (x ^ (x >> 33)) * 0xff51afd7ed558ccdU;
+  x = (x ^ (x >> 33)) * 0xc4ceb9fe1a85ec53U;
+  return x ^ (x >> 33);
+}
+
+std::uint64_t hash(const Vector3& p) {
+  std::uint64_t sum = 0;
+  for (const double x : p) {
+    std::uint64_t bits;
+    const double value = x + 0.0;  // one zero
+    std::memcpy(&bits, &value, sizeof bits);
+    sum = mixed(sum ^ bits);
+  }
+  return sum;
+}
+
+/// Vertices in one place become one: the first of them. Keeps the order.
+TriangleMesh joined(const TriangleMesh& mesh) {
+  std::size_t slots = 16;
+  while (slots < 2 * mesh.vertices.size()) slots *= 2;
+  std::vector<int> table(slots, -1);
+  TriangleMesh result;
+  std::vector<int> index;
+  index.reserve(mesh.vertices.size());
+  for (const Vector3& p : mesh.vertices) {
+    if (!p.allFinite()) throw std::domain_error("the vertices must be finite");
+    std::size_t slot = hash(p) & (slots - 1);
+    while (table[slot] >= 0 && vertex(result, table[slot]) != p) slot = (slot + 1) & (slots - 1);
+    if (table[slot] < 0) {
+      table[slot] = static_cast<int>(result.vertices.size());
+      result.vertices.push_back(p);
+    }
+    index.push_back(table[slot]);
+  }
+  result.triangles.reserve(mesh.triangles.size());
+  for (const Corners& corners : mesh.triangles) {
+    const auto joined = [&](std::size_t i) { return index[static_cast<std::size_t>(corners[i])]; };
+    const Corners own{joined(0), joined(1), joined(2)};
+    const Vector3 ab = vertex(result, own[1]) - vertex(result, own[0]);
+    const Vector3 ac = vertex(result, own[2]) - vertex(result, own[0]);
+    constexpr double kLeastSine = 2e-12;  // what make_triangle takes for a triangle, whatever the rounding
+    const double longest = std::max({ab.squaredNorm(), ac.squaredNorm(), (ac - ab).squaredNorm()});
+    if (ab.cross(ac).norm() > kLeastSine * longest) result.triangles.push_back(own);
+  }
+  return result;
+}
+
+/// Whether every edge is passed as often in one direction as in the other, by two sums of hashes of each: they agree by
+/// chance once in 2^128.
+bool has_no_rim(const TriangleMesh& mesh) {
+  std::uint64_t forward[2] = {0, 0}, backward[2] = {0, 0};
+  const auto add = [](std::uint64_t(&sums)[2], int from, int to) {
+    const std::uint64_t edge = std::uint64_t{static_cast<std::uint32_t>(from)} << 32 | static_cast<std::uint32_t>(to);
+    sums[0] += mixed(edge);
+    sums[1] += mixed(~edge);
+  };
+  for (const Corners& corners : mesh.triangles)
+    for (std::size_t i = 0; i < 3; ++i) {
+      add(forward, corners[i], corners[(i + 1) % 3]);
+      add(backward, corners[(i + 1) % 3], corners[i]);
+    }
+  return forward[0] == backward[0] && forward[1] == backward[1];
+}
+
+double six_volumes(const TriangleMesh& mesh) {
+  const Vector3 origin = mesh.vertices[0];
+  double sum = 0.0;
+  for (const Corners& corners : mesh.triangles)
+    sum += (vertex(mesh, corners[0]) - origin)
+               .cross(vertex(mesh, corners[1]) - origin)
+               .dot(vertex(mesh, corners[2]) - origin);
+  return sum;
+}
+
+/// Turns triangles so that those that share an edge with one other look to the same side, from the first one on.
+void turn_to_same_side(TriangleMesh& mesh) {
+  struct Side {
+    std::uint64_t edge;  // the lesser vertex in the upper half
+    int triangle;
+    bool is_forward;
+  };
+  std::vector<Side> sides;
+  sides.reserve(3 * mesh.triangles.size());
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto a = static_cast<std::uint32_t>(mesh.triangles[t][i]);
+      const auto b = static_cast<std::uint32_t>(mesh.triangles[t][(i + 1) % 3]);
+      sides.push_back({std::uint64_t{std::min(a, b)} << 32 | std::max(a, b), static_cast<int>(t), a < b});
+    }
+  std::ranges::sort(sides, {}, [](const Side& side) { return std::pair(side.edge, side.triangle); });
+  struct Neighbour {
+    int triangle;
+    bool is_turned;  // against the other
+  };
+  std::vector<std::vector<Neighbour>> neighbours(mesh.triangles.size());
+  for (std::size_t i = 0; i + 1 < sides.size(); ++i) {
+    const bool is_pair = sides[i].edge == sides[i + 1].edge &&
+                         (i + 2 == sides.size() || sides[i + 2].edge != sides[i].edge) &&
+                         (i == 0 || sides[i - 1].edge != sides[i].edge);
+    if (!is_pair) continue;
+    const bool is_turned = sides[i].is_forward == sides[i + 1].is_forward;
+    neighbours[static_cast<std::size_t>(sides[i].triangle)].push_back({sides[i + 1].triangle, is_turned});
+    neighbours[static_cast<std::size_t>(sides[i + 1].triangle)].push_back({sides[i].triangle, is_turned});
+  }
+  std::vector<signed char> state(mesh.triangles.size(), 0);  // 1 as it was, -1 turned, 0 not seen
+  std::vector<int> open;
+  for (std::size_t first = 0; first < mesh.triangles.size(); ++first) {
+    if (state[first] != 0) continue;
+    state[first] = 1;
+    open.push_back(static_cast<int>(first));
+    while (!open.empty()) {
+      const auto t = static_cast<std::size_t>(open.back());
+      open.pop_back();
+      for (const Neighbour& next : neighbours[t]) {
+        signed char& its = state[static_cast<std::size_t>(next.triangle)];
+        if (its != 0) continue;
+        its = static_cast<signed char>(next.is_turned ? -state[t] : state[t]);
+        open.push_back(next.triangle);
+      }
+    }
+  }
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    if (state[t] < 0) std::swap(mesh.triangles[t][1], mesh.triangles[t][2]);
+}
+
+/// The solid angle under which p sees a triangle, positive from behind [VanOosterom1983].
+double solid_angle(const TriangleMesh& mesh, const Corners& corners, const Vector3& p) {
+  const Vector3 a = vertex(mesh, corners[0]) - p, b = vertex(mesh, corners[1]) - p, c = vertex(mesh, corners[2]) - p;
+  const double la = a.norm(), lb = b.norm(), lc = c.norm();
+  return 2.0 * std::atan2(a.dot(b.cross(c)), la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
+}
+
+}  // namespace
+
+Triangle SurfaceTriangles::triangle(int index) const {
+  const Corners& corners = mesh.triangles[static_cast<std::size_t>(index)];
+  return make_triangle(vertex(mesh, corners[0]), vertex(mesh, corners[1]), vertex(mesh, corners[2]));
+}
+
+MeshSurface make_mesh_surface(const TriangleMesh& mesh) {
+  TriangleMesh own = joined(mesh);
+  if (own.triangles.empty()) throw std::domain_error("the surface has no triangles");
+  bool is_closed = has_no_rim(own);
+  if (!is_closed) {
+    turn_to_same_side(own);
+    is_closed = has_no_rim(own);
+  }
+  if (is_closed && six_volumes(own) < 0.0)
+    for (Corners& corners : own.triangles) std::swap(corners[1], corners[2]);
+
+  double length = 0.0;
+  std::vector<Aabb> boxes;
+  boxes.reserve(own.triangles.size());
+  for (const Corners& corners : own.triangles) {
+    Aabb box;
+    for (std::size_t i = 0; i < 3; ++i) {
+      box = united(box, vertex(own, corners[i]));
+      length += (vertex(own, corners[(i + 1) % 3]) - vertex(own, corners[i])).norm();
+    }
+    boxes.push_back(box);
+  }
+  const double spacing = length / (3.0 * static_cast<double>(own.triangles.size()));
+  return {
+      std::make_shared<const SurfaceTriangles>(SurfaceTriangles{std::move(own), is_closed, spacing, BoxTree(boxes)})};
+}
+
+SurfacePlace nearest_place(const SurfaceTriangles& surface, const Vector3& p) {
+  SurfacePlace nearest{0, surface.mesh.vertices[0], std::numeric_limits<double>::infinity()};
+  // Whatever is nearer than the half side of a box around p lies within the box.
+  for (double reach = surface.spacing; !(nearest.distance <= reach); reach *= 4.0) {
+    surface.tree.visit_overlapping(grown({p, p}, reach), [&](int index) {
+      const Vector3 point = closest_point(surface.triangle(index), p);
+      const double distance = (p - point).norm();
+      if (distance < nearest.distance) nearest = {index, point, distance};
+      return true;
+    });
+    if (!std::isfinite(reach)) break;
+  }
+  return nearest;
+}
+
+Triangle nearest_triangle(const MeshSurface& surface, const Vector3& p) {
+  return surface.triangles->triangle(nearest_place(*surface.triangles, p).triangle);
+}
+
+double signed_distance(const MeshSurface& surface, const Vector3& p) {
+  const SurfaceTriangles& triangles = *surface.triangles;
+  const double distance = nearest_place(triangles, p).distance;
+  if (!triangles.is_closed) return distance;
+  double angle = 0.0;
+  for (const Corners& corners : triangles.mesh.triangles) angle += solid_angle(triangles.mesh, corners, p);
+  return angle > 2.0 * std::numbers::pi ? -distance : distance;  // 4 pi inside, 0 outside
+}
+
+BoundingBall bounding_ball(const MeshSurface& surface) {
+  Aabb box;
+  for (const Vector3& p : surface.triangles->mesh.vertices) box = united(box, p);
+  const Vector3 center = 0.5 * (box.lower + box.upper);
+  double squared = 0.0;
+  for (const Vector3& p : surface.triangles->mesh.vertices) squared = std::max(squared, (p - center).squaredNorm());
+  return {center, std::sqrt(squared)};
+}
+
+std::vector<int> triangles_at(const SurfaceTriangles& surface, const Vector3& point, double tolerance) {
+  std::vector<int> found;
+  surface.tree.visit_overlapping(grown({point, point}, tolerance), [&](int index) {
+    if ((closest_point(surface.triangle(index), point) - point).norm() <= tolerance) found.push_back(index);
+    return true;
+  });
+  std::ranges::sort(found);
+  return found;
+}
+
+}  // namespace trajet
