@@ -1,10 +1,10 @@
 #pragma once
 
-#include <Eigen/Core>
 #include <cassert>
 #include <cmath>
 
 #include "trajet/law/program_builder.hpp"
+#include "trajet/math/number_traits.hpp"
 
 namespace trajet {
 
@@ -49,18 +49,4 @@ class Term {
 }  // namespace trajet
 
 template <>
-struct Eigen::NumTraits<trajet::Term> : Eigen::GenericNumTraits<trajet::Term> {
-  using Real = trajet::Term;
-  using NonInteger = trajet::Term;
-  using Nested = trajet::Term;
-  using Literal = double;
-  enum {
-    IsComplex = 0,
-    IsInteger = 0,
-    IsSigned = 1,
-    RequireInitialization = 1,
-    ReadCost = 1,
-    AddCost = 1,
-    MulCost = 1
-  };
-};
+struct Eigen::NumTraits<trajet::Term> : trajet::NumberTraits<trajet::Term, 1, 1, 1> {};
