@@ -69,7 +69,7 @@ void EventWatch::search(const Segment<>& segment, double from) {
       next_ = {true, segment.t0() + root.time, 0.0, 0, true};
       return false;
     }
-    if (root.kind == RootKind::gap) {
+    if (root.kind == RootKind::undefined) {
       sign_ = 0;
       return true;
     }

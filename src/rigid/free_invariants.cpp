@@ -27,8 +27,10 @@ void FreeInvariants::restore(Quaternion& q_WB, Vector3& w_WB_B) const {
   for (int i = 0; i < kMostIterations; ++i) {
     const Vector3 g = principal_.moments.cwiseProduct(w), h = excess_moments_.cwiseProduct(w);
     const double e = w.dot(g) - twice_energy_, f = w.dot(h) - excess_;
-    constexpr double kRounding = 2.0 * std::numeric_limits<double>::epsilon();
-    if (std::abs(e) <= kRounding * twice_energy_ && std::abs(f) <= kRounding * w.cwiseAbs().dot(h.cwiseAbs())) break;
+    constexpr double kInvariantRounding = 2.0 * std::numeric_limits<double>::epsilon();
+    if (std::abs(e) <= kInvariantRounding * twice_energy_ &&
+        std::abs(f) <= kInvariantRounding * w.cwiseAbs().dot(h.cwiseAbs()))
+      break;
     const double gg = g.dot(g), gh = g.dot(h), hh = h.dot(h);
     const double determinant = g.cross(h).squaredNorm();  // gg hh - gh^2 without cancellation
     // about a principal axis the gradients are parallel: then the energy alone is kept

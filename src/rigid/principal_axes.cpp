@@ -14,8 +14,8 @@ PrincipalAxes principal_axes(const Matrix3& inertia) {
 
 bool is_possible_inertia(const Matrix3& inertia) {
   const Vector3 moments = principal_axes(inertia).moments;
-  constexpr double kRounding = 1e-9;
-  return moments.minCoeff() > 0.0 && moments.maxCoeff() <= 0.5 * (1.0 + kRounding) * moments.sum();
+  constexpr double kMomentRounding = 1e-9;
+  return moments.minCoeff() > 0.0 && moments.maxCoeff() <= 0.5 * (1.0 + kMomentRounding) * moments.sum();
 }
 
 Matrix3 shifted_inertia(const Matrix3& inertia, double mass, const Vector3& p) {

@@ -111,29 +111,6 @@ TEST(Interval, ComparisonsMayBeUndecided) {
   EXPECT_EQ(chosen.upper(), 3.0);
 }
 
-// f(t) = |sin t| + sqrt(1 + t^2) exp(-t) - max(t, 1/2) on pieces: value, rate, second derivative / 2 are enclosed,
-// except where a corner makes them undefined.
-TEST(IntervalJet, EnclosesDerivatives) {
-  const auto f = [](const auto& t) {
-    using std::exp, std::sin, std::abs, std::sqrt;
-    using T = std::decay_t<decltype(t)>;
-    return T(abs(T(sin(t))) + sqrt(T(t * t + T(1.0))) * exp(T(-t)) - max(t, T(0.5)));
-  };
-  for (int piece = -40; piece < 40; ++piece) {
-    const double a = 0.05 * piece + 0.0125;
-    const double b = a + 0.05;
-    const IntervalJet enclosure = f(IntervalJet::variable(Interval(a, b)));
-    for (int i = 0; i <= 10; ++i) {
-      const double t = std::min(b, a + 0.1 * i * (b - a));
-      const Series<double, 2> exact = f(Series<double, 2>::variable(t));
-      for (int k = 0; k <= 2; ++k) {
-        // The exact values have rounding errors of their own.
-        EXPECT_TRUE(contains(enclosure[k] + Interval(-1e-14, 1e-14), exact[k])) << "t " << t << " order " << k;
-      }
-    }
-  }
-}
-
 TEST(IntervalJet, DoesNotClaimARateAcrossAJumpNorACurvatureAcrossACorner) {
   const IntervalJet t = IntervalJet::variable(Interval(-0.1, 0.2));
   const IntervalJet corner = abs(t);

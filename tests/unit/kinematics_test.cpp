@@ -11,6 +11,7 @@
 #include "trajet/law/program_number.hpp"
 #include "trajet/rigid/free_invariants.hpp"
 #include "trajet/rigid/orientation.hpp"
+#include "trajet/rigid/principal_axes.hpp"
 
 namespace trajet {
 namespace {
@@ -53,6 +54,58 @@ TEST(Kinematics, InverseDerivativeOfTheExponential) {
     // the cancellation of the closed form: eps / theta^2
     EXPECT_NEAR(detail::polynomial(detail::kInverseDerivative, theta * theta), exact, 2 * kEpsilon / (theta * theta));
   }
+}
+
+/// Euler's equations are the derivative of R I w = L, worked out in the world: dL/dt = torque.
+TEST(Kinematics, EulersEquationsAreTheBalanceOfAngularMomentum) {
+  const double h = 1e-4;
+  Matrix3 inertia;
+  inertia << 3, 0.2, -0.1, 0.2, 2, 0.3, -0.1, 0.3, 2.5;
+  const Vector3 torque_B(0.4, -0.7, 0.2);
+  const Vector3 alpha_B = angular_acceleration_body<double>(inertia, inertia.inverse(), kSpin, torque_B);
+  const auto momentum_W = [&](double time) {
+    return rotate<double>(turned(Frame::body, time), inertia * (kSpin + time * alpha_B));
+  };
+  const Vector3 rate = (momentum_W(h) - momentum_W(-h)) / (2 * h);
+  EXPECT_LE((rate - rotate<double>(kStart, torque_B)).norm(), 1e-6);
+}
+
+/// Velocity and acceleration of a point are the derivatives of its position.
+TEST(Kinematics, APointOfASolidMovesAsItsDerivativesSay) {
+  const Vector3 p_B(0.3, -0.2, 0.5), alpha(0.2, 0.4, -0.3);
+  const PointMotion center{{1, 2, 3}, {0.5, 0, -1}, {0, 0, -9.8}};
+  const auto position = [&](double t) {
+    const Vector3 angle = kSpin * t + 0.5 * t * t * alpha;  // the order t^3 apart, where the axis turns
+    return Vector3(center.position + t * center.velocity + 0.5 * t * t * center.acceleration +
+                   rotate<double>(from_rotation_vector<double>(angle) * kStart, p_B));
+  };
+  const PointMotion point = point_motion(center, rotation_matrix(kStart), kSpin, alpha, p_B);
+  const double h = 1e-3;
+  EXPECT_EQ(point.position, center.position + rotation_matrix(kStart) * p_B);
+  EXPECT_LE(((position(h) - position(-h)) / (2 * h) - point.velocity).norm(), 1e-5);
+  EXPECT_LE(((position(h) - 2 * position(0.0) + position(-h)) / (h * h) - point.acceleration).norm(), 1e-4);
+}
+
+TEST(PrincipalAxes, AreARotationThatMakesTheInertiaDiagonal) {
+  for (int i = 0; i < 20; ++i) {
+    const Matrix3 R = rotation_matrix(Quaternion(0.3 + i, 0.1 * i, -0.5, 0.8 - i).normalized());
+    const Matrix3 inertia = R * Vector3(1, 2, 2.5).asDiagonal() * R.transpose();
+    const PrincipalAxes axes = principal_axes(inertia);
+    EXPECT_NEAR(axes.R_BP.determinant(), 1.0, 8 * kEpsilon) << i;
+    EXPECT_LE((axes.R_BP * axes.moments.asDiagonal() * axes.R_BP.transpose() - inertia).norm(), 32 * kEpsilon) << i;
+  }
+}
+
+TEST(OrientationLayout, AligningChoosesTheNearerOfTwoQuaternions) {
+  const OrientationLayout layout;
+  std::vector<double> part(4), other(4);
+  layout.put(kStart, other.data());
+  layout.put(scaled(-1.0, turned(Frame::world, 0.1)), part.data());
+  layout.align(part.data(), other.data());
+  EXPECT_GT(part[0] * other[0] + part[1] * other[1] + part[2] * other[2] + part[3] * other[3], 0.9);
+  const std::vector<double> aligned = part;
+  layout.align(part.data(), other.data());
+  EXPECT_EQ(part, aligned);
 }
 
 /// All ways, in both frames: the rate of the numbers is the rate of the rotation they stand for.

@@ -90,14 +90,6 @@ TEST(Series, AdditionTheoremsHold) {
   }
 }
 
-TEST(Series, DerivativeUndoesIntegral) {
-  std::mt19937_64 generator(3);
-  S x = random_series(generator, 0.3);
-  const S back = derivative(integral(x, 7.0));
-  for (int k = 0; k < kOrder; ++k) EXPECT_NEAR(back[k], x[k], 1e-16) << k;
-  EXPECT_EQ(integral(x, 7.0)[0], 7.0);
-}
-
 TEST(Series, ValueAtATimeIsTheFunctions) {
   // remainder of exp(-t) cos(2t) behind t^12 at t = 0.1: (sqrt(5) 0.1)^13 / 13! = 5.7e-19
   const S t = S::variable(0.0);

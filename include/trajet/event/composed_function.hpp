@@ -23,8 +23,7 @@ class ComposedFunction {
   using Piece = IntervalJet;
 
   /// Between the times tau = `begin` and tau = `end` of the path. Refers to `path`. `touch_tolerance` (unit of g):
-  /// values as small count as zero; what rounding needs is added. `may_be_undefined`: g may have gaps
-  /// or poles.
+  /// values as small count as zero; what rounding needs is added. `may_be_undefined`: g may have gaps or poles.
   ComposedFunction(const Path<Count>& path, G g, double begin, double end, double touch_tolerance = 0.0,
                    bool may_be_undefined = false)
       : path_(path),

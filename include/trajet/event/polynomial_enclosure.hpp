@@ -35,7 +35,8 @@ inline IntervalJet enclose_polynomial(std::span<const double> coefficients, doub
     std::span<double> d(derivative.data(), coefficients.size());
     for (const int order : {1, 2}) {
       d = detail::differentiate(d);
-      x[order] = detail::interval(BernsteinForm(d, from, to).value_range()) / static_cast<double>(order);
+      // each differentiation rounds the coefficients once
+      x[order] = detail::interval(BernsteinForm(d, from, to).value_range(order)) / static_cast<double>(order);
     }
     return x;
   }

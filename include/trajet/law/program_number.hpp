@@ -1,10 +1,10 @@
 #pragma once
 
-#include <Eigen/Core>
 #include <cassert>
 #include <cmath>
 
 #include "trajet/law/program_builder.hpp"
+#include "trajet/math/number_traits.hpp"
 
 namespace trajet {
 
@@ -65,18 +65,4 @@ class ProgramNumber {
 }  // namespace trajet
 
 template <>
-struct Eigen::NumTraits<trajet::ProgramNumber> : Eigen::GenericNumTraits<trajet::ProgramNumber> {
-  using Real = trajet::ProgramNumber;
-  using NonInteger = trajet::ProgramNumber;
-  using Nested = trajet::ProgramNumber;
-  using Literal = double;
-  enum {
-    IsComplex = 0,
-    IsInteger = 0,
-    IsSigned = 1,
-    RequireInitialization = 1,
-    ReadCost = 1,
-    AddCost = 1,
-    MulCost = 1
-  };
-};
+struct Eigen::NumTraits<trajet::ProgramNumber> : trajet::NumberTraits<trajet::ProgramNumber, 1, 1, 1> {};

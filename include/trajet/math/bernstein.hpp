@@ -4,6 +4,7 @@
 #include <array>
 #include <cassert>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <span>
 
@@ -19,15 +20,21 @@ struct Range {
 
 namespace detail {
 
-/// 1 / C(n, k) for all degrees that a BernsteinForm can have.  // (degree+1 x degree+1)
+/// 1 / C(n, k) for all degrees that a BernsteinForm can have, rounded at most twice.  // (degree+1 x degree+1)
 inline constexpr auto kInverseBinomials = [] {
-  std::array<std::array<double, kMaxPolynomialDegree + 1>, kMaxPolynomialDegree + 1> table{};
-  for (int n = 0; n <= kMaxPolynomialDegree; ++n) {
-    double binomial = 1.0;
-    for (int k = 0; k <= n; ++k) {
-      table[static_cast<std::size_t>(n)][static_cast<std::size_t>(k)] = 1.0 / binomial;
-      binomial = binomial * (n - k) / (k + 1);
+  constexpr std::size_t kSize = kMaxPolynomialDegree + 1;
+  std::array<std::array<double, kSize>, kSize> table{};
+  // Pascal's rule on integers of up to 77 bits: high * 2^40 + low
+  std::array<std::uint64_t, kSize> high{};
+  std::array<std::uint64_t, kSize> low{1};
+  for (std::size_t n = 0; n < kSize; ++n) {
+    for (std::size_t k = n; k > 0; --k) {
+      low[k] += low[k - 1];
+      high[k] += high[k - 1] + (low[k] >> 40U);
+      low[k] &= (std::uint64_t{1} << 40U) - 1;
     }
+    for (std::size_t k = 0; k <= n; ++k)
+      table[n][k] = 1.0 / (static_cast<double>(high[k]) * 0x1p40 + static_cast<double>(low[k]));
   }
   return table;
 }();
@@ -38,8 +45,8 @@ inline constexpr auto kInverseBinomials = [] {
 /// <= 1.
 ///
 /// The coefficients bound the polynomial: min b_i <= p <= max b_i on the interval, and their first and second
-/// differences bound, up to positive factors n / |h| and n (n-1) / h^2, its first and second derivative [Farouki 2012].
-/// All bounds include the rounding errors of the coefficients.
+/// differences bound, up to positive factors n / |h| and n (n-1) / h^2, its first and second derivative [Farouki2012].
+/// All bounds include the rounding errors: docs/design/bernstein_rounding.md proves it.
 ///
 /// Of fixed capacity, so that nothing is allocated. A form of a subinterval is made from the monomial coefficients, not
 /// from the form of the interval: its rounding errors are then those of the terms' size there, which after long flights
@@ -76,7 +83,8 @@ class BernsteinForm {
       for (int k = 0; k <= degree_ - i; ++k) at(difference, k) += at(difference, k + 1);
       at(b_, i) = difference[0];
     }
-    error_ = roundings(degree_) * kUnitRoundoff * magnitude;
+    rounding_ = kUnitRoundoff * magnitude;
+    error_ = roundings(degree_) * rounding_;
   }
 
   int degree() const { return degree_; }
@@ -84,13 +92,16 @@ class BernsteinForm {
   /// Bound of the rounding error of each coefficient.
   double error() const { return error_; }
 
-  /// The roundings that a coefficient's terms pass: 2k in the power, a shift of 2n, a weight and n sums.
+  /// The roundings that the terms of a coefficient pass, at most 4n + 1, and two that pay for the rounding of the
+  /// bound.
   static constexpr double roundings(int degree) { return 4.0 * degree + 3.0; }
 
-  /// Encloses the polynomial on the interval.
-  Range value_range() const {
+  /// Encloses the polynomial on the interval. `input_roundings`: how often each coefficient that was given is rounded
+  /// already.
+  Range value_range(int input_roundings = 0) const {
     const auto [lower, upper] = std::minmax_element(b_.begin(), b_.begin() + degree_ + 1);
-    return {*lower - error_, *upper + error_};
+    const double error = error_ + input_roundings * rounding_;
+    return {*lower - error, *upper + error};
   }
 
   /// Encloses the first derivative with respect to s on the interval: |h| times the rate, in the direction of travel.
@@ -98,7 +109,7 @@ class BernsteinForm {
     if (degree_ < 1) return {0.0, 0.0};
     Range d{kInfinity, -kInfinity};
     for (int i = 0; i < degree_; ++i) extend(d, at(b_, i + 1) - at(b_, i));
-    return scaled(d, degree_, 2.0 * error_);
+    return scaled(d, degree_, 2.0 * difference_error());
   }
 
   /// Whether the second differences are small: rounding errors spoil them.
@@ -115,7 +126,7 @@ class BernsteinForm {
     if (degree_ < 2) return {0.0, 0.0};
     Range d{kInfinity, -kInfinity};
     for (int i = 0; i + 1 < degree_; ++i) extend(d, (at(b_, i + 2) - at(b_, i + 1)) - (at(b_, i + 1) - at(b_, i)));
-    return scaled(d, degree_ * (degree_ - 1.0), 4.0 * error_);
+    return scaled(d, degree_ * (degree_ - 1.0), 4.0 * difference_error());
   }
 
  private:
@@ -128,12 +139,15 @@ class BernsteinForm {
     range.lower = std::min(range.lower, x);
     range.upper = std::max(range.upper, x);
   }
+  /// What each coefficient adds to the error of a difference, whose own roundings and those of `scaled` are paid too.
+  double difference_error() const { return error_ + 3.0 * rounding_; }
   static Range scaled(const Range& range, double factor, double error) {
     return {factor * (range.lower - error), factor * (range.upper + error)};
   }
 
   int degree_ = 0;
   double error_ = 0.0;
+  double rounding_ = 0.0;  // one rounding of all terms
   Array b_;
 };
 

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <Eigen/Core>
 #include <algorithm>
 #include <iterator>
 #include <optional>
@@ -8,6 +7,7 @@
 #include <vector>
 
 #include "trajet/math/number.hpp"
+#include "trajet/math/number_traits.hpp"
 
 namespace trajet {
 
@@ -112,18 +112,4 @@ inline Dependence norm3(const Dependence& x, const Dependence& y, const Dependen
 }  // namespace trajet
 
 template <>
-struct Eigen::NumTraits<trajet::Dependence> : Eigen::GenericNumTraits<double> {
-  using Real = trajet::Dependence;
-  using NonInteger = Real;
-  using Nested = Real;
-  using Literal = double;
-  enum {
-    IsComplex = 0,
-    IsInteger = 0,
-    IsSigned = 1,
-    RequireInitialization = 1,
-    ReadCost = 1,
-    AddCost = 1,
-    MulCost = 1
-  };
-};
+struct Eigen::NumTraits<trajet::Dependence> : trajet::NumberTraits<trajet::Dependence, 1, 1, 1> {};

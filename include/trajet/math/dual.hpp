@@ -1,13 +1,12 @@
 #pragma once
 
-#include <Eigen/Core>
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 #include <type_traits>
 
 #include "trajet/math/number.hpp"
+#include "trajet/math/number_traits.hpp"
 
 namespace trajet {
 
@@ -28,8 +27,8 @@ class Dual {
   constexpr Dual() = default;
   /// A constant.
   template <class Number>
-  requires(std::is_arithmetic_v<Number>) constexpr Dual(Number value)
-      : value_(static_cast<double>(value)) {}  // NOLINT(google-explicit-constructor)
+  // NOLINTNEXTLINE(google-explicit-constructor)
+  requires(std::is_arithmetic_v<Number>) constexpr Dual(Number value) : value_(static_cast<double>(value)) {}
 
   /// The variable that moves with direction `i`, at `value`.
   static constexpr Dual variable(double value, int i) {
@@ -216,21 +215,4 @@ Dual<N> floor(const Dual<N>& x) {
 
 /// Eigen vectors and matrices of Duals.
 template <int N>
-struct Eigen::NumTraits<trajet::Dual<N>> : Eigen::GenericNumTraits<trajet::Dual<N>> {
-  using Real = trajet::Dual<N>;
-  using NonInteger = Real;
-  using Nested = Real;
-  using Literal = double;
-  enum {
-    IsComplex = 0,
-    IsInteger = 0,
-    IsSigned = 1,
-    RequireInitialization = 1,
-    ReadCost = N + 1,
-    AddCost = N + 1,
-    MulCost = 2 * N + 1
-  };
-  static Real epsilon() { return Real(std::numeric_limits<double>::epsilon()); }
-  static Real dummy_precision() { return Real(1e-12); }
-  static int digits10() { return std::numeric_limits<double>::digits10; }
-};
+struct Eigen::NumTraits<trajet::Dual<N>> : trajet::NumberTraits<trajet::Dual<N>, N + 1, N + 1, 2 * N + 1> {};

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <Eigen/Core>
 #include <algorithm>
 #include <boost/numeric/interval.hpp>
 #include <cmath>
@@ -8,6 +7,7 @@
 #include <limits>
 #include <numbers>
 
+#include "trajet/math/number_traits.hpp"
 #include "trajet/math/polynomial.hpp"
 #include "trajet/math/series.hpp"
 
@@ -215,21 +215,4 @@ inline IntervalJet floor(const IntervalJet& x) { return detail::step_function(fl
 
 /// Eigen vectors and matrices of Intervals.
 template <>
-struct Eigen::NumTraits<trajet::Interval> : Eigen::GenericNumTraits<trajet::Interval> {
-  using Real = trajet::Interval;
-  using NonInteger = Real;
-  using Nested = Real;
-  using Literal = double;
-  enum {
-    IsComplex = 0,
-    IsInteger = 0,
-    IsSigned = 1,
-    RequireInitialization = 1,
-    ReadCost = 2,
-    AddCost = 4,
-    MulCost = 12
-  };
-  static Real epsilon() { return Real(std::numeric_limits<double>::epsilon()); }
-  static Real dummy_precision() { return Real(1e-12); }
-  static int digits10() { return std::numeric_limits<double>::digits10; }
-};
+struct Eigen::NumTraits<trajet::Interval> : trajet::NumberTraits<trajet::Interval, 2, 4, 12> {};

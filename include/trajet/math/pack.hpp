@@ -1,9 +1,9 @@
 #pragma once
 
-#include <Eigen/Core>
 #include <xsimd/xsimd.hpp>
 
 #include "trajet/math/number.hpp"
+#include "trajet/math/number_traits.hpp"
 
 namespace trajet {
 
@@ -36,21 +36,4 @@ TRAJET_INLINE trajet::Pack norm3(const trajet::Pack& x, const trajet::Pack& y, c
 
 /// Eigen vectors of Packs.
 template <>
-struct Eigen::NumTraits<trajet::Pack> : Eigen::GenericNumTraits<trajet::Pack> {
-  using Real = trajet::Pack;
-  using NonInteger = trajet::Pack;
-  using Nested = trajet::Pack;
-  using Literal = double;
-  enum {
-    IsComplex = 0,
-    IsInteger = 0,
-    IsSigned = 1,
-    RequireInitialization = 1,
-    ReadCost = 1,
-    AddCost = 1,
-    MulCost = 1
-  };
-  static Real epsilon() { return Real(NumTraits<double>::epsilon()); }
-  static Real dummy_precision() { return Real(NumTraits<double>::dummy_precision()); }
-  static int digits10() { return NumTraits<double>::digits10(); }
-};
+struct Eigen::NumTraits<trajet::Pack> : trajet::NumberTraits<trajet::Pack, 1, 1, 1> {};

@@ -1,10 +1,10 @@
 #pragma once
 
-#include <Eigen/Core>
 #include <algorithm>
 #include <limits>
 
 #include "trajet/math/number.hpp"
+#include "trajet/math/number_traits.hpp"
 
 namespace trajet {
 
@@ -108,18 +108,4 @@ inline PolynomialDegree norm3(PolynomialDegree x, PolynomialDegree y, Polynomial
 }  // namespace trajet
 
 template <>
-struct Eigen::NumTraits<trajet::PolynomialDegree> : Eigen::GenericNumTraits<double> {
-  using Real = trajet::PolynomialDegree;
-  using NonInteger = Real;
-  using Nested = Real;
-  using Literal = double;
-  enum {
-    IsComplex = 0,
-    IsInteger = 0,
-    IsSigned = 1,
-    RequireInitialization = 1,
-    ReadCost = 1,
-    AddCost = 1,
-    MulCost = 1
-  };
-};
+struct Eigen::NumTraits<trajet::PolynomialDegree> : trajet::NumberTraits<trajet::PolynomialDegree, 1, 1, 1> {};

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "trajet/math/force_inline.hpp"
+#include "trajet/math/number_traits.hpp"
 #include "trajet/math/recurrences.hpp"
 
 namespace trajet {
@@ -222,18 +223,4 @@ TRAJET_INLINE double comparison_sign(const Replay<T, N>& a, const Replay<T, N>& 
 
 /// Eigen vectors of Replay numbers.
 template <class T, int N>
-struct Eigen::NumTraits<trajet::Replay<T, N>> : Eigen::GenericNumTraits<double> {
-  using Real = trajet::Replay<T, N>;
-  using NonInteger = Real;
-  using Nested = Real;
-  using Literal = double;
-  enum {
-    IsComplex = 0,
-    IsInteger = 0,
-    IsSigned = 1,
-    RequireInitialization = 1,
-    ReadCost = 1,
-    AddCost = 4,
-    MulCost = 16
-  };
-};
+struct Eigen::NumTraits<trajet::Replay<T, N>> : trajet::NumberTraits<trajet::Replay<T, N>, 1, 4, 16> {};

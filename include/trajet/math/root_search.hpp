@@ -15,7 +15,7 @@ enum class RootKind {
   crossing,    ///< the sign changes
   touch,       ///< value and rate vanish together within the tolerance, the sign stays
   unresolved,  ///< neither a root nor its absence can be shown here
-  gap,         ///< from here on the function is not finite; only of functions that may be so
+  undefined,   ///< from here on the function is not finite; only of functions that may be so
 };
 
 /// A time at which a function is zero within its tolerance. `begin` to `end` is the direction of travel.
@@ -49,9 +49,8 @@ struct FunctionSample {
 /// What a function must offer to have its roots searched between begin() and end(), which may be less than begin().
 ///
 /// - `piece(a, b)` holds enclosures between the times a and b: `value_range`, `rate_range` and `curvature_range`
-/// enclose the
-///   function and its derivatives there; of the derivatives only the signs matter, so that each may carry a positive
-///   factor.
+///   enclose the function and its derivatives there; of the derivatives only the signs matter, so that each may carry a
+///   positive factor.
 /// - `at(t)` evaluates at one time.
 /// - `may_be_undefined()`, if it has that: whether it may have gaps and poles. They are then passed over, else what is
 ///   not finite is unresolved.
@@ -289,7 +288,7 @@ class RootSearch {
     constexpr double kPole = 1e-12;
     if (std::abs(time - *gap_begin_) > kPole * std::abs(function_.end() - function_.begin())) {
       last_sign_ = 0;
-      visit_root({*gap_begin_, 0.0, RootKind::gap, 0, 0, false, false});
+      visit_root({*gap_begin_, 0.0, RootKind::undefined, 0, 0, false, false});
     }
     gap_begin_.reset();
   }

@@ -1,11 +1,10 @@
 #pragma once
 
-#include <Eigen/Core>
 #include <array>
 #include <cmath>
-#include <limits>
 
 #include "trajet/math/number.hpp"
+#include "trajet/math/number_traits.hpp"
 #include "trajet/math/recurrences.hpp"
 
 namespace trajet {
@@ -27,13 +26,13 @@ class Series {
   /// Zero.
   constexpr Series() : coefficients_{} {}
   /// A constant.
-  constexpr Series(const T& value) : coefficients_{} {
-    coefficients_[0] = value;
-  }  // NOLINT(google-explicit-constructor)
+  // NOLINTNEXTLINE(google-explicit-constructor)
+  constexpr Series(const T& value) : coefficients_{} { coefficients_[0] = value; }
   /// A constant given as a plain number.
   template <class Number>
+  // NOLINTNEXTLINE(google-explicit-constructor)
   requires(std::is_arithmetic_v<Number> && !std::is_same_v<Number, T>) constexpr Series(Number value)
-      : Series(T(static_cast<double>(value))) {}  // NOLINT(google-explicit-constructor)
+      : Series(T(static_cast<double>(value))) {}
 
   /// value + t: the independent variable at `value`.
   static Series variable(const T& value) {
@@ -123,18 +122,6 @@ class Series {
 template <class Condition, class T, int N>
 Series<T, N> where_continuous(const Condition& condition, const Series<T, N>& a, const Series<T, N>& b) {
   return where(condition, a, b);
-}
-
-/// d/dt; the last coefficient is unknown and set to zero.
-template <class T, int N>
-Series<T, N> derivative(const Series<T, N>& x) {
-  return Series<T, N>::from([&](int k) { return k < N ? T(static_cast<double>(k + 1)) * x[k + 1] : T(0.0); });
-}
-
-/// Integral from 0 to t, plus `constant`; drops the highest coefficient.
-template <class T, int N>
-Series<T, N> integral(const Series<T, N>& x, const T& constant = T(0.0)) {
-  return Series<T, N>::from([&](int k) { return k > 0 ? x[k - 1] / T(static_cast<double>(k)) : constant; });
 }
 
 template <class T, int N>
@@ -322,21 +309,5 @@ Series<T, N> floor(const Series<T, N>& x) {
 
 /// Eigen vectors and matrices of series.
 template <class T, int N>
-struct Eigen::NumTraits<trajet::Series<T, N>> : Eigen::GenericNumTraits<trajet::Series<T, N>> {
-  using Real = trajet::Series<T, N>;
-  using NonInteger = Real;
-  using Nested = Real;
-  using Literal = double;
-  enum {
-    IsComplex = 0,
-    IsInteger = 0,
-    IsSigned = 1,
-    RequireInitialization = 1,
-    ReadCost = N + 1,
-    AddCost = N + 1,
-    MulCost = (N + 1) * (N + 2) / 2
-  };
-  static Real epsilon() { return Real(T(std::numeric_limits<double>::epsilon())); }
-  static Real dummy_precision() { return Real(T(1e-12)); }
-  static int digits10() { return std::numeric_limits<double>::digits10; }
-};
+struct Eigen::NumTraits<trajet::Series<T, N>>
+    : trajet::NumberTraits<trajet::Series<T, N>, N + 1, N + 1, (N + 1) * (N + 2) / 2> {};

@@ -157,7 +157,7 @@ class GaussStepper {
     for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
       const double size = correct(h);
       if (met_not_finite_) return false;
-      if (size <= kRounding) return true;
+      if (size <= kStillCorrection) return true;
       const bool is_slow = size > kSlow * previous;
       if (is_slow && previous <= kNearRounding) return true;
       if (is_slow && !renewed) {
@@ -214,7 +214,7 @@ class GaussStepper {
 
   static constexpr int kMaxIterations = 50;
   static constexpr double kSlow = 0.1;  // corrections that shrink less deserve a new Jacobian
-  static constexpr double kRounding = std::numeric_limits<double>::epsilon() / 4.0;
+  static constexpr double kStillCorrection = std::numeric_limits<double>::epsilon() / 4.0;
   // Corrections below this that stop shrinking are rounding of the rates, which the Newton matrix cannot remove.
   static constexpr double kNearRounding = 1e4 * std::numeric_limits<double>::epsilon();
 

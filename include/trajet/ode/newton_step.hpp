@@ -69,14 +69,15 @@ class NewtonStep : public ImplicitStep<Rate, Dim> {
   static constexpr double kAssumedRate = 0.5;  // of convergence, of an iteration that has taken one step
   // Rounding of the residual, as a part of the state: a tolerance below a hundred times of it cannot be solved to a
   // hundredth.
-  static constexpr double kRounding = 400.0 * std::numeric_limits<double>::epsilon();
+  static constexpr double kFinestTolerance = 400.0 * std::numeric_limits<double>::epsilon();
 
   /// The largest component of the correction over its tolerance, none of which is taken finer than rounding allows.
   double correction_norm(const State& q) const {
     double largest = 0.0;
     for (Eigen::Index i = 0; i < q.size(); ++i) {
       const double scale = std::max(std::abs(q[i]), std::abs(this->q0_[i]));
-      largest = std::max(largest, std::abs(correction_[i]) / std::max(this->tolerance_.of(scale), kRounding * scale));
+      largest =
+          std::max(largest, std::abs(correction_[i]) / std::max(this->tolerance_.of(scale), kFinestTolerance * scale));
     }
     return largest;
   }

@@ -223,13 +223,13 @@ class QuadratureStepper {
     const double last_terms = std::abs(c[kDegree]) + std::abs(c[kDegree - 1]);
     const double error = std::abs(h) * std::max(last_terms, 0.5 * std::abs(rule.difference(values)));
     const double scale = std::max(std::abs(q_[i]), std::abs(trial_[i]));
-    const double rounding = kRounding * (scale + std::abs(h) * magnitude);
+    const double rounding = kSumRounding * (scale + std::abs(h) * magnitude);
     segment_.error_bound()[i] = error + rounding;
     return error / (options_.atol + options_.rtol * scale + rounding);
   }
 
   // The values of the polynomials near the end of a step lose this much by the alternating sums of their coefficients.
-  static constexpr double kRounding = 8.0 * std::numeric_limits<double>::epsilon();
+  static constexpr double kSumRounding = 8.0 * std::numeric_limits<double>::epsilon();
 
   // A coefficient below this part of (2 l + 1) |rate| is what rounding leaves of zero: a polynomial's rate keeps its
   // degree.

@@ -105,7 +105,7 @@ class Rk4DoublingStepper {
     coefficients.col(2) = (a - 4.0 * c + 16.0 * b) / (h * h);
     coefficients.col(3) = (12.0 * c - 4.0 * a - 32.0 * b) / (h * h * h);
     coefficients.col(4) = (4.0 * a - 8.0 * c + 16.0 * b) / (h * h * h * h);
-    segment.error_bound() = kQuarticError * correction.cwiseAbs() + kRounding * (start.cwiseAbs() + q_.cwiseAbs());
+    segment.error_bound() = kQuarticError * correction.cwiseAbs() + kStateRounding * (start.cwiseAbs() + q_.cwiseAbs());
   }
 
   double time() const { return t_; }
@@ -121,7 +121,7 @@ class Rk4DoublingStepper {
   }
 
  private:
-  static constexpr double kRounding = std::numeric_limits<double>::epsilon();
+  static constexpr double kStateRounding = std::numeric_limits<double>::epsilon();
 
   /// The largest error of the quartic, q^(5) h^5 max(s^2 (s - 1/2)^2 (1 - s))/5! = 1.12e-4 q^(5) h^5, over the
   /// extrapolation's change, a sixteenth of the error of a step of Simpson's rule, q^(5) h^5/2880: 5.2 where the law

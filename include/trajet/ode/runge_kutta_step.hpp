@@ -162,7 +162,7 @@ class RungeKuttaStep {
   using Block = typename Vector::Block;
 
   // The state is rounded twice in a step, and so are the values of the polynomials near it.
-  static constexpr double kRounding = std::numeric_limits<double>::epsilon();
+  static constexpr double kStateRounding = std::numeric_limits<double>::epsilon();
 
   template <std::size_t Stage>
   struct StageWeights {
@@ -235,7 +235,7 @@ class RungeKuttaStep {
       for (Eigen::Index i = 0; i < end_.size(); ++i) bound[i] = of_both_companions(bound[i], q_stage_[i]);
     }
     for (Eigen::Index i = 0; i < end_.size(); ++i)
-      bound[i] += kRounding * (std::abs(segment.coefficients()(i, 0)) + std::abs(end_[i]));
+      bound[i] += kStateRounding * (std::abs(segment.coefficients()(i, 0)) + std::abs(end_[i]));
   }
   template <class Weights>
   TRAJET_INLINE void write_difference(double h, double* components) const {

@@ -91,7 +91,7 @@ class SeriesStepper {
     const double h = std::abs(series_.duration());
     const double power = std::pow(h, order_ + 1);
     segment.error_bound() = power * series_.coefficients().col(order_ + 1).cwiseAbs() +
-                            kRounding * (series_.coefficients().col(0).cwiseAbs() + q_.cwiseAbs());
+                            kStateRounding * (series_.coefficients().col(0).cwiseAbs() + q_.cwiseAbs());
   }
 
   double time() const { return t_; }
@@ -99,7 +99,7 @@ class SeriesStepper {
   const StepStatistics& statistics() const { return statistics_; }
 
  private:
-  static constexpr double kRounding = std::numeric_limits<double>::epsilon();
+  static constexpr double kStateRounding = std::numeric_limits<double>::epsilon();
 
   /// The law on plain numbers.
   auto law() const {
