@@ -58,6 +58,13 @@ class Path {
     return values;
   }
 
+  /// The components' rates at tau.
+  Values rate(double tau) const {
+    Values rates(count());
+    for (int i = 0; i < count(); ++i) rates[i] = evaluate_polynomial(coefficients(i), tau).jet.rate;
+    return rates;
+  }
+
   /// Encloses component `i` for all tau between `from` and `to`.
   Range range(int i, double from, double to) const { return BernsteinForm(coefficients(i), from, to).value_range(); }
 
