@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "bounds/exact.hpp"
-#include "trajet/collide/detect/table.hpp"
+#include "trajet/collide/detect/contact_table.hpp"
 
 namespace trajet {
 namespace {

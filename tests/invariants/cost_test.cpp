@@ -96,7 +96,7 @@ TEST(Cost, NothingIsComputedForAnObserverThatWishesNothing) {
 
 TEST(Cost, ASteppedRunIsTheSameRun) {
   const World world = make_world(parse_scene(balls(3), "test.toml"));
-  Run stepped(world);
+  trajet::Run stepped(world);
   double last = world.start;
   long steps = 0;
   do {
