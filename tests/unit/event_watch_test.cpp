@@ -52,14 +52,21 @@ TEST(EventWatch, DirectionsAreToldApart) {
 TEST(EventWatch, ACrossingAtAJointCountsOnce) {
   EventWatch watch = watch_from("x", CrossingDirection::any, 0.0, -1.0);
   watch.search(segment_of(0.0, 1.0, {-1.0, 1.0}), 0.0);
-  EXPECT_FALSE(watch.next().found);  // at the end of the Segment: the next one tells
-  watch.search(segment_of(1.0, 2.0, {0.0, 1.0}), 1.0);
-  ASSERT_TRUE(watch.next().found);
+  ASSERT_TRUE(watch.next().found);  // the rate tells where it goes
   EXPECT_EQ(watch.next().time, 1.0);
   EXPECT_EQ(watch.next().direction, 1);
   watch.take();
   watch.search(segment_of(1.0, 2.0, {0.0, 1.0}), 1.0);
   EXPECT_FALSE(watch.next().found);
+}
+
+TEST(EventWatch, TheNextSegmentTellsWhereRateAndCurvatureDoNot) {
+  EventWatch watch = watch_from("x", CrossingDirection::any, 0.0, -1.0);
+  watch.search(segment_of(0.0, 1.0, {-1.0, 3.0, -3.0, 1.0}), 0.0);  // (t - 1)^3
+  EXPECT_FALSE(watch.next().found);
+  watch.search(segment_of(1.0, 2.0, {0.0, 0.0, 0.0, 1.0}), 1.0);
+  ASSERT_TRUE(watch.next().found);
+  EXPECT_EQ(watch.next().direction, 1);
 }
 
 TEST(EventWatch, AStartOnZeroAndATouchAreNone) {

@@ -61,7 +61,7 @@ const BadScene kBadScenes[] = {
     {"[[obstacle]]\nname = \"o\"\nshape = \"plane\"\npoint = [0,0,0]", "3:1", "lacks the key 'normal'"},
     {"[[obstacle]]\nname = \"o\"\nshape = \"plane\"\nradius = 1", "6:1",
      "unknown key 'radius' in [[obstacle]] of shape plane"},
-    {"[[obstacle]]\nname = \"o\"\nshape = \"mesh\"", "5:9", "not supported by this version"},
+    {"[[obstacle]]\nname = \"o\"\nshape = \"mesh\"", "3:1", "lacks the key 'file'"},
     {"[[obstacle]]\nname = \"o\"\nshape = \"plane\"\nfriction = 1", "6:1", "not supported by this version"},
     {"[[obstacle]]\nname=\"o\"\nshape=\"sphere\"\ncenter=[0,0,0]\nradius=1\non_hit = \"stick\"", "8:10",
      "stop, bounce, pass"},

@@ -47,6 +47,7 @@ class Path {
   std::span<const double> coefficients(int i) const {
     return {rows_.data() + i * rows_.cols(), static_cast<std::size_t>(rows_.cols())};
   }
+  bool is_finite() const { return rows_.allFinite(); }
   int degree() const { return static_cast<int>(rows_.cols()) - 1; }
   /// What the step that made the Segment may have added to the error of each component.
   const Values& error_bound() const { return error_bound_; }

@@ -45,6 +45,7 @@ ContactResult first_contact_with(const MeshSurface& surface, const MovingBall& b
 inline ContactResult first_contact(const Shape& shape, const MovingBall& ball, const ContactMemory& memory = {}) {
   // Nothing happens in no time, and what was known stays known.
   if (ball.from == ball.to) return {.memory = memory};
+  if (!ball.path.is_finite()) return {.status = ContactStatus::unresolved, .time = ball.from, .memory = memory};
   return std::visit([&](const auto& s) { return first_contact_with(s, ball, memory); }, shape);
 }
 
