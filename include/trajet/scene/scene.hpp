@@ -111,27 +111,28 @@ struct BodyDefinition {
   /// Its centre of mass is the origin of the body's frame: hulls and meshes are moved there. Planes and what is thin
   /// are no bodies.
   ShapeDefinition shape = PointShape{};
-  Expression position = Vector3(0, 0, 0);   ///< p_WB at the start, m
-  Expression velocity = Vector3(0, 0, 0);   ///< v_WB at the start, m/s
-  std::optional<Expression> acceleration;   ///< m/s^2; or `force` with `mass`; neither: uniform motion
-  std::optional<Expression> force;          ///< N
-  std::optional<Expression> mass;           ///< kg, may depend on t and the states
-  std::optional<Expression> position_rate;  ///< dr/dt in m/s; default: the velocity
+  Expression position = Vector3(0, 0, 0);     ///< p_WB at the start, m
+  Expression velocity = Vector3(0, 0, 0);     ///< v_WB at the start, m/s
+  std::optional<Expression> acceleration{};   ///< m/s^2; or `force` with `mass`; neither: uniform motion
+  std::optional<Expression> force{};          ///< N
+  std::optional<Expression> mass{};           ///< kg, may depend on t and the states
+  std::optional<Expression> position_rate{};  ///< dr/dt in m/s; default: the velocity
 
-  OrientationDefinition orientation{};              ///< at the start
-  std::optional<Expression> angular_velocity;       ///< w_WB_W at the start, rad/s; or:
-  std::optional<Expression> angular_velocity_body;  ///< w_WB_B
-  std::optional<Expression> angular_acceleration;   ///< rad/s^2 in the world's frame; or:
+  OrientationDefinition orientation{};                ///< at the start
+  std::optional<Expression> angular_velocity{};       ///< w_WB_W at the start, rad/s; or:
+  std::optional<Expression> angular_velocity_body{};  ///< w_WB_B
+  std::optional<Expression> angular_acceleration{};   ///< rad/s^2 in the world's frame; or:
   std::optional<Expression>
-      angular_acceleration_body;          ///< in the body's; neither: Euler's equations, if it has an inertia
-  std::optional<Expression> torque;       ///< N m about the centre of mass, in the world's frame
-  std::optional<Expression> torque_body;  ///< N m, in the body's frame; the two add up
-  std::optional<Expression> force_point;  ///< where the force acts, in the body's frame, m; default: the centre of mass
-  std::optional<Expression> density;      ///< kg/m^3, of an extended shape; instead of the mass
-  std::optional<Expression> principal_inertia;  ///< about the centre of mass along the body's axes, kg m^2; or:
-  std::vector<Expression> inertia;              ///< three rows, body's frame
-  std::vector<NamedExpression> points;          ///< of the body, in its frame, m, to be reported
-  std::optional<RgbColor> color;                ///< in pictures; none: one that tells bodies apart
+      angular_acceleration_body{};          ///< in the body's; neither: Euler's equations, if it has an inertia
+  std::optional<Expression> torque{};       ///< N m about the centre of mass, in the world's frame
+  std::optional<Expression> torque_body{};  ///< N m, in the body's frame; the two add up
+  std::optional<Expression>
+      force_point{};                    ///< where the force acts, in the body's frame, m; default: the centre of mass
+  std::optional<Expression> density{};  ///< kg/m^3, of an extended shape; instead of the mass
+  std::optional<Expression> principal_inertia{};  ///< about the centre of mass along the body's axes, kg m^2; or:
+  std::vector<Expression> inertia{};              ///< three rows, body's frame
+  std::vector<NamedExpression> points{};          ///< of the body, in its frame, m, to be reported
+  std::optional<RgbColor> color{};                ///< in pictures; none: one that tells bodies apart
   SourceLocation where{};
 };
 
@@ -175,26 +176,26 @@ struct EventDefinition {
   EventAction action = EventAction::record;
   /// For `set`: new values, all computed from the state before. A name is an extra state or a part of a body: `ball.v`,
   /// `ball.vz`.
-  std::vector<NamedExpression> set;
+  std::vector<NamedExpression> set{};
   SourceLocation where{};
 };
 
 struct Scene {
-  std::string title;
-  std::string file;  ///< where it was read from; empty for a scene built in C++
-  std::vector<NamedExpression> parameters;
+  std::string title{};
+  std::string file{};  ///< where it was read from; empty for a scene built in C++
+  std::vector<NamedExpression> parameters{};
   /// What `table("NAME", x)` of its formulas looks up, by name.
-  std::map<std::string, std::shared_ptr<const LookupTable>> tables;
-  TimeOptions time;
-  MethodOptions method;
-  std::vector<BodyDefinition> bodies;
-  std::vector<ObstacleDefinition> obstacles;
-  std::vector<StateDefinition> states;
-  std::vector<EventDefinition> events;
+  std::map<std::string, std::shared_ptr<const LookupTable>> tables{};
+  TimeOptions time{};
+  MethodOptions method{};
+  std::vector<BodyDefinition> bodies{};
+  std::vector<ObstacleDefinition> obstacles{};
+  std::vector<StateDefinition> states{};
+  std::vector<EventDefinition> events{};
   /// Closed forms over t and the parameters, by name: `ball.r`, `ball.v`, `ball.w`, `ball.w_body`, or an extra state.
-  std::vector<NamedExpression> exact;
-  std::vector<ExactOrientation> exact_orientations;
-  std::vector<std::string> warnings;  ///< sentences on what was assumed when it was made
+  std::vector<NamedExpression> exact{};
+  std::vector<ExactOrientation> exact_orientations{};
+  std::vector<std::string> warnings{};  ///< sentences on what was assumed when it was made
 };
 
 }  // namespace trajet
