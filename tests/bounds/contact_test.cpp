@@ -147,6 +147,58 @@ std::optional<ContactResult> first_hit(const Segment<3>& segment, const Case& c,
   return contact;
 }
 
+/// Rounding alone: of the path, of the shape's numbers, of the search.
+TEST(ContactBounds, RoundingIsWithinTheTimesErrorBound) {
+  for (const Kind& kind : kinds()) {
+    Random random(31);
+    Coverage coverage;
+    int found = 0;
+    for (int sample = 0; sample < 1200; ++sample) {
+      const Case c = kind.make(random);
+      const Motion motion = random_motion(random, sample % 2 == 0 ? 0.0 : 10.0);
+      const auto hit = first_hit(motion.segment(Vector3::Zero()), c, kind.radius, 0.0);
+      if (!hit) continue;
+      ++found;
+      const Real exact = test::root_near([&](const Real& t) { return c.gap(motion.position(t)); }, hit->time,
+                                         2.0 * hit->time_error_bound);
+      ASSERT_FALSE(isnan(exact)) << kind.name << " " << sample;
+      coverage.add(std::abs(static_cast<double>(Real(hit->time) - exact)), hit->time_error_bound);
+    }
+    std::printf("%-16s %4d hits, largest |error| / bound %.4f\n", kind.name, found, coverage.largest());
+    EXPECT_GT(found, 300) << kind.name;
+    EXPECT_LE(coverage.largest(), 1.0) << kind.name;
+    EXPECT_GE(coverage.largest(), 0.1) << kind.name;
+  }
+}
+
+/// A fast path along a plane: what the products n . x leave of its height is mostly rounding.
+TEST(ContactBounds, RoundingOfAFlatApproachIsWithinTheTimesErrorBound) {
+  Random random(34);
+  Coverage coverage;
+  int found = 0;
+  for (int sample = 0; sample < 2000; ++sample) {
+    const Matrix3 R = random_rotation(random);
+    const Case c = make_case(make_plane(100.0 * R.col(1), R.col(0)));
+    const double start = random.uniform(-1e3, 1e3);
+    const double acceleration = random.uniform(0.0, 1e3);
+    Motion motion;
+    for (int i = 0; i < 3; ++i)
+      motion.components[static_cast<std::size_t>(i)] = {start * R(i, 1) + R(i, 0), 1e3 * R(i, 1) - 2.0 * R(i, 0),
+                                                        acceleration * R(i, 1)};
+    const auto hit = first_hit(motion.segment(Vector3::Zero()), c, 0.0, 0.0);
+    if (!hit) continue;
+    ++found;
+    const Real exact = test::root_near([&](const Real& t) { return c.gap(motion.position(t)); }, hit->time,
+                                       2.0 * hit->time_error_bound);
+    ASSERT_FALSE(isnan(exact)) << sample;
+    coverage.add(std::abs(static_cast<double>(Real(hit->time) - exact)), hit->time_error_bound);
+  }
+  std::printf("flat approach    %4d hits, largest |error| / bound %.4f\n", found, coverage.largest());
+  EXPECT_GT(found, 500);
+  EXPECT_LE(coverage.largest(), 1.0);
+  EXPECT_GE(coverage.largest(), 0.1);
+}
+
 /// A path that is off by all that its Segment and its start may be off, towards the obstacle or away, reaches it just
 /// as much earlier or later as the bound says.
 TEST(ContactBounds, ThePathsErrorIsTheTimesErrorBound) {

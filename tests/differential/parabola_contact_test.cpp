@@ -280,8 +280,7 @@ void compare(const Parabola& motion, const S& shape, double radius, Counts& coun
     ASSERT_EQ(contact.status, ContactStatus::hit);
     EXPECT_EQ(contact.memory.side, oracle.crossings[i].direction);
     const double error = std::abs(static_cast<double>(contact.time - oracle.crossings[i].time));
-    // The bound is of rounding in the gap's value over its rate; it covers the place of a corner to first order.
-    EXPECT_LE(error, 2.0 * contact.time_error_bound + 1e-15) << "margin " << static_cast<double>(oracle.margin);
+    EXPECT_LE(error, contact.time_error_bound) << "margin " << static_cast<double>(oracle.margin);
     EXPECT_NEAR(contact.normal.norm(), 1.0, 1e-12);
     counts.worst_time_error = std::max(counts.worst_time_error, error);
     ++counts.hits;

@@ -46,7 +46,8 @@ inline constexpr auto kInverseBinomials = [] {
 ///
 /// The coefficients bound the polynomial: min b_i <= p <= max b_i on the interval, and their first and second
 /// differences bound, up to positive factors n / |h| and n (n-1) / h^2, its first and second derivative [Farouki2012].
-/// All bounds include the rounding errors: docs/design/bernstein_rounding.md proves it.
+/// All bounds include the rounding errors, and those of the coefficients given: docs/design/bernstein_rounding.md
+/// proves it.
 ///
 /// Of fixed capacity, so that nothing is allocated. A form of a subinterval is made from the monomial coefficients, not
 /// from the form of the interval: its rounding errors are then those of the terms' size there, which after long flights
@@ -57,8 +58,10 @@ class BernsteinForm {
   BernsteinForm() {}  // NOLINT(modernize-use-equals-default): leaves the coefficients uninitialised
 
   /// The polynomial sum_k coefficients[k] t^k for t between `begin` and `end`, which may be less than `begin`.
-  /// At least one and at most kMaxPolynomialDegree + 1 coefficients.
-  BernsteinForm(std::span<const double> coefficients, double begin, double end)
+  /// At least one and at most kMaxPolynomialDegree + 1 coefficients. `coefficient_errors`: bounds of what is wrong with
+  /// each of them; none: they are exact.
+  BernsteinForm(std::span<const double> coefficients, double begin, double end,
+                std::span<const double> coefficient_errors = {})
       : degree_(static_cast<int>(coefficients.size()) - 1) {
     assert(0 <= degree_ && degree_ <= kMaxPolynomialDegree);
     const double h = end - begin;
@@ -85,11 +88,12 @@ class BernsteinForm {
     }
     rounding_ = kUnitRoundoff * magnitude;
     error_ = roundings(degree_) * rounding_;
+    if (!coefficient_errors.empty()) error_ += polynomial_magnitude(coefficient_errors, std::abs(begin) + std::abs(h));
   }
 
   int degree() const { return degree_; }
   double coefficient(int i) const { return at(b_, i); }
-  /// Bound of the rounding error of each coefficient.
+  /// Bound of the error of each coefficient.
   double error() const { return error_; }
 
   /// The roundings that the terms of a coefficient pass, at most 4n + 1, and two that pay for the rounding of the

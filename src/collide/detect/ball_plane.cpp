@@ -1,15 +1,14 @@
 #include "contact_report.hpp"
+#include "plane_height.hpp"
 #include "step_end_search.hpp"
 #include "trajet/collide/detect/contact_table.hpp"
-#include "trajet/event/linear_function.hpp"
 #include "trajet/geom/closest_point.hpp"
 #include "trajet/geom/distance.hpp"
 
 namespace trajet {
 
 ContactResult first_contact_with(const Plane& plane, const MovingBall& ball, const ContactMemory& memory) {
-  // gap = n . x - n . p0 - r
-  const LinearFunction height(ball.path, plane.normal, -plane.normal.dot(plane.point) - ball.radius);
+  const LinearFunction height = detail::plane_height(ball.path, plane.normal, plane.point, ball.radius);
   const auto [begin, end] = detail::tau_interval(ball);
   const PolynomialFunction gap = height.between(begin, end, detail::handled_tolerance(memory, ball));
   constexpr bool kIsSolid = true;

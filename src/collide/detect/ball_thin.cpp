@@ -1,8 +1,8 @@
 #include <algorithm>
 
 #include "grown_shape.hpp"
+#include "plane_height.hpp"
 #include "trajet/collide/detect/contact_table.hpp"
-#include "trajet/event/linear_function.hpp"
 #include "trajet/geom/closest_point.hpp"
 #include "trajet/geom/distance.hpp"
 
@@ -72,8 +72,7 @@ ContactResult contact_in_plane(const ThinShape& shape, const MovingBall& ball, c
 template <class ThinShape>
 ContactResult point_contact(const ThinShape& shape, const MovingBall& ball, const ContactMemory& memory) {
   const BoundingBall bounds = bounding_ball(shape);
-  // height = n . x - n . c
-  const LinearFunction height(ball.path, shape.normal, -shape.normal.dot(point_in_plane(shape)));
+  const LinearFunction height = detail::plane_height(ball.path, shape.normal, point_in_plane(shape));
   const auto [begin, end] = detail::tau_interval(ball);
   const PolynomialFunction gap = height.between(begin, end, detail::handled_tolerance(memory, ball));
   constexpr bool kIsSolid = false;

@@ -5,8 +5,8 @@
 #include <set>
 
 #include "contact_report.hpp"
+#include "plane_height.hpp"
 #include "step_end_search.hpp"
-#include "trajet/event/linear_function.hpp"
 #include "trajet/geom/closest_point.hpp"
 
 namespace trajet::detail {
@@ -78,8 +78,7 @@ class PointSurfaceSearch {
     const bool was_handled = is_handled(memory_, point_);
     const bool is_on_it = is_on(triangle, start_, near + handled_tolerance(memory_, point_));
     const ContactMemory own = is_on_it ? memory_ : ContactMemory{};
-    // height = n . x - n . c
-    const LinearFunction height(point_.path, triangle.normal, -triangle.normal.dot(triangle.corners[0]));
+    const LinearFunction height = plane_height(point_.path, triangle.normal, triangle.corners[0]);
     const PolynomialFunction gap =
         height.between(begin, end, is_on_it && was_handled ? std::max(memory_.tolerance, near) : 0.0);
     const auto is_within = [&](double tau) {
