@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <charconv>
 #include <cmath>
 #include <exception>
 #include <string>
@@ -10,6 +9,7 @@
 
 #include "commands.hpp"
 #include "trajet/error.hpp"
+#include "trajet/text/decimal_number.hpp"
 #include "trajet/text/did_you_mean.hpp"
 #include "trajet/version.hpp"
 
@@ -18,10 +18,8 @@ namespace {
 
 CLI::Validator positive_number() {
   const auto check = [](const std::string& text) {
-    double value = 0.0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    const bool is_number = error == std::errc() && end == text.data() + text.size() && std::isfinite(value);
-    return is_number && value > 0.0 ? std::string() : "a positive number expected, got '" + text + "'";
+    const std::optional<double> value = finite_number(text);
+    return value && *value > 0.0 ? std::string() : "a positive number expected, got '" + text + "'";
   };
   return {check, "", "positive"};
 }

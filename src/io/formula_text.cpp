@@ -1,12 +1,12 @@
 #include "formula_text.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <filesystem>
 #include <utility>
 
 #include "table_file.hpp"
+#include "trajet/text/decimal_number.hpp"
 
 namespace trajet::detail {
 
@@ -99,10 +99,9 @@ Expression FormulaReader::quantity(const QuantityText& quantity, const SourceLoc
 
 /// "500m/s": a number with a unit right behind it is no expression either; say what is missing.
 void FormulaReader::refuse_missing_blank(std::string_view text, const SourceLocation& where) const {
-  double number = 0.0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  if (error != std::errc() || end == text.data() + text.size()) return;
-  const auto length = static_cast<std::size_t>(end - text.data());
+  const std::optional<DecimalNumber> number = leading_number(text);
+  if (!number || number->is_out_of_range || number->length == text.size()) return;
+  const std::size_t length = number->length;
   const std::string rest(text.substr(length)), digits(text.substr(0, length));
   if (!is_letter(rest.front())) return;
   if (is_name(rest))

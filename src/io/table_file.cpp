@@ -1,6 +1,5 @@
 #include "table_file.hpp"
 
-#include <charconv>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -9,6 +8,7 @@
 #include <vector>
 
 #include "trajet/error.hpp"
+#include "trajet/text/decimal_number.hpp"
 
 namespace trajet::detail {
 namespace {
@@ -28,11 +28,6 @@ std::vector<std::string_view> fields(std::string_view line) {
   }
 }
 
-bool read_number(std::string_view text, double& value) {
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  return error == std::errc() && end == text.data() + text.size() && std::isfinite(value);
-}
-
 }  // namespace
 
 LookupTable read_table(const std::string& path) {
@@ -46,16 +41,16 @@ LookupTable read_table(const std::string& path) {
     ++line_number;
     const std::vector<std::string_view> columns = fields(line);
     if (columns.empty()) continue;
-    double first = 0.0, second = 0.0;
-    const bool numbers = columns.size() == 2 && read_number(columns[0], first) && read_number(columns[1], second);
-    const bool is_title = x.empty() && line_number == 1 && !numbers && !read_number(columns[0], first);
+    const std::optional<double> first = finite_number(columns[0]);
+    const std::optional<double> second = columns.size() == 2 ? finite_number(columns[1]) : std::nullopt;
+    const bool is_title = line_number == 1 && !first;
     if (is_title) continue;
     const SourceLocation place{path, line_number, 1};
-    if (!numbers) throw InputError(place, "two numbers are expected on a line of a table");
-    if (!x.empty() && !(first > x.back()))
+    if (!first || !second) throw InputError(place, "two numbers are expected on a line of a table");
+    if (!x.empty() && !(*first > x.back()))
       throw InputError(place, "the first column of a table must rise from line to line");
-    x.push_back(first);
-    y.push_back(second);
+    x.push_back(*first);
+    y.push_back(*second);
   }
   if (file.bad()) throw FileError("cannot read the table '" + path + "'");
   if (x.size() < 2) throw InputError({path, line_number, 1}, "a table needs at least two lines of numbers");

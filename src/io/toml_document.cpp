@@ -1,7 +1,8 @@
 #include "toml_document.hpp"
 
 #include <algorithm>
-#include <charconv>
+
+#include "trajet/text/decimal_number.hpp"
 
 namespace trajet::detail {
 
@@ -70,10 +71,8 @@ long double TomlDocument::exact_number(const toml::node& node, double number) co
   std::string digits;
   for (const char c : written.substr(0, written.find_first_not_of("0123456789+-.eE_")))
     if (c != '_' && !(c == '+' && digits.empty())) digits += c;
-  long double exact = number;
-  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), exact);
-  const bool is_read = error == std::errc() && end == digits.data() + digits.size();
-  return is_read && static_cast<double>(exact) == number ? exact : static_cast<long double>(number);
+  const std::optional<DecimalNumber> read = leading_number(digits);
+  return read && read->length == digits.size() && read->value == number ? read->exact : Extended(number);
 }
 
 std::vector<TextPosition> TomlDocument::content_positions(const toml::value<std::string>& value) const {

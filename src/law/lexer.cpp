@@ -1,7 +1,8 @@
 #include "lexer.hpp"
 
 #include <algorithm>
-#include <charconv>
+
+#include "trajet/text/decimal_number.hpp"
 
 namespace trajet::detail {
 namespace {
@@ -79,17 +80,14 @@ Token Lexer::next() {
 }
 
 Token Lexer::number() {
-  const char* begin = text_.data() + position_;
-  double value = 0.0;
-  const auto [end, error] = std::from_chars(begin, text_.data() + text_.size(), value);
-  const std::string_view digits(begin, static_cast<std::size_t>(end - begin));
-  if (error != std::errc()) {
-    fail("the number " + std::string(digits.substr(0, 40)) + " is outside the range of double precision");
+  const std::string_view rest = text_.substr(position_);
+  const DecimalNumber number = leading_number(rest).value();  // it begins with a digit
+  if (number.is_out_of_range) {
+    const std::string digits(rest.substr(0, std::min<std::size_t>(number.length, 40)));
+    fail("the number " + digits + " is outside the range of double precision");
   }
-  long double exact = value;
-  std::from_chars(begin, end, exact);
-  Token token = take(TokenKind::number, digits.size());
-  token.value = {value, exact};
+  Token token = take(TokenKind::number, number.length);
+  token.value = {number.value, number.exact};
   return token;
 }
 

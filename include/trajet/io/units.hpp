@@ -32,8 +32,8 @@ Unit parse_unit(std::string_view text);
 struct QuantityText {
   double number = 0.0;
   long double exact_number = 0.0L;  ///< in extended precision
-  std::string_view number_text;
-  std::string_view unit;
+  std::string_view number_text{};
+  std::string_view unit{};
 };
 
 /// Splits `text` of the form "number, blank, unit"; nothing if it has another form (then it is an expression).
