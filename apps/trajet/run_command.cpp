@@ -17,6 +17,7 @@
 #include "trajet/io/output_file.hpp"
 #include "trajet/io/report_json.hpp"
 #include "trajet/io/scene_file.hpp"
+#include "trajet/portable.hpp"
 #include "trajet/scene/world.hpp"
 #include "trajet/sim/observer_list.hpp"
 #include "trajet/sim/run.hpp"
@@ -56,7 +57,7 @@ void check_animation(double duration, double fps) {
 
 int run_command(const RunArguments& arguments) {
   const auto to_stdout = {arguments.json == "-", arguments.csv == "-", arguments.html == "-", arguments.glb == "-"};
-  const auto stdout_count = std::ranges::count(to_stdout, true);
+  const auto stdout_count = ranges::count(to_stdout, true);
   if (stdout_count > 1)
     throw InputError({"--csv"}, "only one of --json, --csv, --html and --glb can go to standard output");
   check_outputs(arguments.scene, {{"--json", arguments.json},

@@ -8,6 +8,7 @@
 #include "terminal.hpp"
 #include "text_table.hpp"
 #include "trajet/io/names.hpp"
+#include "trajet/portable.hpp"
 
 namespace trajet {
 
@@ -56,7 +57,7 @@ std::string final_state(const Sample& final) {
       table.push_back({body.body, format(body.position), format(body.velocity)});
     text += format_table(table);
   }
-  if (std::ranges::any_of(final.bodies, &BodyState::turns)) {
+  if (ranges::any_of(final.bodies, &BodyState::turns)) {
     TextTable table{{"at the end", "orientation (w, x, y, z)", "angular velocity [rad/s]"}};
     for (const BodyState& body : final.bodies)
       if (body.turns) table.push_back({body.body, format(body.orientation), format(body.angular_velocity)});

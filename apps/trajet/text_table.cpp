@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "trajet/portable.hpp"
+
 namespace trajet {
 
 namespace {
@@ -9,7 +11,7 @@ namespace {
 /// Characters of a UTF-8 text: all bytes but those that continue one.
 std::size_t width(const std::string& text) {
   return static_cast<std::size_t>(
-      std::ranges::count_if(text, [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }));
+      ranges::count_if(text, [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }));
 }
 
 }  // namespace

@@ -14,6 +14,7 @@
 #include "run_monitor.hpp"
 #include "trajet/io/report_json.hpp"
 #include "trajet/io/scene_file.hpp"
+#include "trajet/portable.hpp"
 #include "trajet/sim/observer_list.hpp"
 #include "trajet/sim/run.hpp"
 
@@ -52,7 +53,7 @@ ViewPage make_view_page(const ViewArguments& arguments, const PageOptions& optio
   };
   for (const std::string& method : arguments.methods) add_variant({.method = method});
   const auto turns = [](const World::Body& body) { return body.rotation.has_value(); };
-  if (!arguments.orientations.empty() && std::ranges::none_of(motions.front().world().bodies, turns))
+  if (!arguments.orientations.empty() && ranges::none_of(motions.front().world().bodies, turns))
     throw InputError({"--orientations"}, "no body of the scene turns");
   for (const std::string& way : arguments.orientations) add_variant({.orientation = way});
   PageOptions with_text = options;

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "trajet/geom/triangle_mesh.hpp"
+#include "trajet/portable.hpp"
 
 namespace trajet {
 namespace {
@@ -59,7 +60,7 @@ class HullBuilder {
 
   template <class Measure>
   int farthest(const Measure& measure) const {
-    const auto found = std::ranges::max_element(points_, {}, measure);
+    const auto found = ranges::max_element(points_, {}, measure);
     if (found == points_.end() || !(measure(*found) > thickness_))
       throw std::domain_error("at least four points that do not lie in a plane are needed");
     return static_cast<int>(found - points_.begin());

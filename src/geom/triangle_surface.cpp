@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "trajet/geom/closest_point.hpp"
+#include "trajet/portable.hpp"
 
 namespace trajet {
 namespace {
@@ -108,7 +109,7 @@ void turn_to_same_side(TriangleMesh& mesh) {
       const auto b = static_cast<std::uint32_t>(mesh.triangles[t][(i + 1) % 3]);
       sides.push_back({std::uint64_t{std::min(a, b)} << 32 | std::max(a, b), static_cast<int>(t), a < b});
     }
-  std::ranges::sort(sides, {}, [](const Side& side) { return std::pair(side.edge, side.triangle); });
+  ranges::sort(sides, {}, [](const Side& side) { return std::pair(side.edge, side.triangle); });
   struct Neighbour {
     int triangle;
     bool is_turned;  // against the other
@@ -228,7 +229,7 @@ std::vector<int> triangles_at(const SurfaceTriangles& surface, const Vector3& po
     if ((closest_point(surface.triangle(index), point) - point).norm() <= tolerance) found.push_back(index);
     return true;
   });
-  std::ranges::sort(found);
+  ranges::sort(found);
   return found;
 }
 

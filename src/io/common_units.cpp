@@ -3,6 +3,7 @@
 #include <numbers>
 
 #include "trajet/io/units.hpp"
+#include "trajet/portable.hpp"
 
 namespace trajet::detail {
 
@@ -14,7 +15,7 @@ struct NamedUnit {
 };
 
 constexpr double kPi = std::numbers::pi;
-constexpr long double kExactPi = std::numbers::pi_v<long double>;
+constexpr Extended kExactPi = std::numbers::pi_v<Extended>;
 
 /// Common units, so that an ordinary scene need not load the database of UDUNITS-2 (5 ms, more than the run of most
 /// scenes). A test holds each entry against UDUNITS-2, which lacks `deg`, `rev`, `fps` and `moa`, reads `mph` as
@@ -71,7 +72,7 @@ constexpr std::array kCommonUnits{
 
 constexpr auto kNames = [] {
   std::array<std::string_view, kCommonUnits.size()> names;
-  std::ranges::transform(kCommonUnits, names.begin(), &NamedUnit::name);
+  ranges::transform(kCommonUnits, names.begin(), &NamedUnit::name);
   return names;
 }();
 
@@ -80,7 +81,7 @@ constexpr auto kNames = [] {
 std::span<const std::string_view> common_unit_names() { return kNames; }
 
 const Unit* common_unit(std::string_view name) {
-  const auto found = std::ranges::find(kCommonUnits, name, &NamedUnit::name);
+  const auto found = ranges::find(kCommonUnits, name, &NamedUnit::name);
   return found == kCommonUnits.end() ? nullptr : &found->unit;
 }
 

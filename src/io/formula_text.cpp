@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "table_file.hpp"
+#include "trajet/portable.hpp"
 #include "trajet/text/decimal_number.hpp"
 
 namespace trajet::detail {
@@ -67,7 +68,7 @@ void FormulaReader::add_name(std::string_view name) {
   if (name.find('-') != std::string_view::npos) dashed_names_.emplace_back(name);
 }
 
-bool FormulaReader::is_name(std::string_view text) const { return std::ranges::find(names_, text) != names_.end(); }
+bool FormulaReader::is_name(std::string_view text) const { return ranges::find(names_, text) != names_.end(); }
 
 Expression FormulaReader::quantity(const QuantityText& quantity, const SourceLocation& where,
                                    const SourceLocation& where_unit, std::optional<Dimension> expected) const {

@@ -13,6 +13,7 @@
 #include "gltf_records.hpp"
 #include "gltf_shapes.hpp"
 #include "trajet/error.hpp"
+#include "trajet/portable.hpp"
 #include "trajet/version.hpp"
 
 namespace trajet {
@@ -215,7 +216,7 @@ void add_bodies(ModelBuilder& builder, int root, const MotionRecord& motion, con
     const World::Body& body = world.bodies[i];
     std::vector<double> jumps = std::move(impact_times[body.name]);
     for (const EventRecord& event : result.events) jumps.push_back(event.time);
-    std::ranges::sort(jumps, {}, [&](double t) { return std::abs(t - result.start_time); });
+    ranges::sort(jumps, {}, [&](double t) { return std::abs(t - result.start_time); });
     const AnimationKeys keys = detail::animation_keys(motion, result, body, jumps, fps);
     const LinearColor color = body.color ? linear(*body.color) : kBodyColors[i % kBodyColors.size()];
     const int node =

@@ -9,6 +9,7 @@
 
 #include "trajet/error.hpp"
 #include "trajet/io/gltf.hpp"
+#include "trajet/portable.hpp"
 #include "trajet/sim/state_at.hpp"
 
 namespace trajet::detail {
@@ -62,12 +63,12 @@ class BodyMotion {
 
   Iterator piece_before(double t) const {
     const auto piece =
-        std::ranges::partition_point(pieces_, [&](const auto& each) { return direction_ * (each.to - t) < 0.0; });
+        ranges::partition_point(pieces_, [&](const auto& each) { return direction_ * (each.to - t) < 0.0; });
     return piece == pieces_.end() ? std::prev(piece) : piece;
   }
   Iterator piece_behind(double t) const {
     const auto next =
-        std::ranges::partition_point(pieces_, [&](const auto& each) { return direction_ * (each.from - t) <= 0.0; });
+        ranges::partition_point(pieces_, [&](const auto& each) { return direction_ * (each.from - t) <= 0.0; });
     return next == pieces_.begin() ? next : std::prev(next);
   }
 
@@ -104,7 +105,7 @@ std::vector<Moment> moments(const RunResult& result, std::span<const double> jum
     all.push_back({t, time, true});
     if (t != result.end_time) all.push_back({t, std::nextafter(time, std::numeric_limits<float>::infinity()), false});
   }
-  std::ranges::stable_sort(all, {}, &Moment::time);
+  ranges::stable_sort(all, {}, &Moment::time);
   std::vector<Moment> kept;
   kept.reserve(all.size());
   for (const Moment& moment : all) {

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "trajet/portable.hpp"
+
 namespace trajet::detail {
 
 namespace {
@@ -10,7 +12,7 @@ namespace {
 bool is_short(const Json& json) {
   if (!json.is_structured() || json.empty()) return true;
   return json.is_array() &&
-         std::ranges::none_of(json, [](const Json& item) { return item.is_object() || item.is_string(); });
+         ranges::none_of(json, [](const Json& item) { return item.is_object() || item.is_string(); });
 }
 
 void append(std::string& text, const Json& json, std::size_t indent) {

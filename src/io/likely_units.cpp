@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "trajet/io/units.hpp"
+#include "trajet/portable.hpp"
 #include "trajet/text/did_you_mean.hpp"
 
 namespace trajet::detail {
@@ -62,7 +63,7 @@ constexpr LikelyUnit kLikelyUnits[] = {
 }  // namespace
 
 std::string likely_unit(std::string_view name) {
-  const auto found = std::ranges::find(kLikelyUnits, name, &LikelyUnit::name);
+  const auto found = ranges::find(kLikelyUnits, name, &LikelyUnit::name);
   if (found != std::end(kLikelyUnits)) return "; did you mean " + std::string(found->meaning) + "?";
   return did_you_mean(name, common_unit_names());
 }

@@ -5,10 +5,11 @@
 #include <cstdio>
 #include <memory>
 
-#include "scene_names.hpp"
 #include "scene_solids.hpp"
 #include "toml_document.hpp"
 #include "value_reader.hpp"
+
+#include "trajet/portable.hpp"
 
 namespace trajet {
 
@@ -46,9 +47,6 @@ class SceneReader {
     for (const TableReader& table : array_of_tables(root, "event")) scene.events.push_back(read_event(table));
     if (root.has("exact")) read_exact(root.subtable("exact").titled("[exact]"), "", scene);
     scene.tables = formulas_.tables();
-    detail::check_names(scene);
-    if (scene.bodies.empty() && scene.states.empty())
-      throw InputError(root.where(), "nothing moves in this scene: a [[body]] or a [[state]] expected");
     return scene;
   }
 
@@ -118,7 +116,7 @@ class SceneReader {
   static void gather_quaternion(const std::string& prefix, Scene& scene) {
     OrientationDefinition orientation;
     for (const char* part : {"qw", "qx", "qy", "qz"}) {
-      const auto found = std::ranges::find(scene.exact, prefix + part, &NamedExpression::name);
+      const auto found = ranges::find(scene.exact, prefix + part, &NamedExpression::name);
       if (found == scene.exact.end()) continue;
       if (orientation.quaternion.empty()) orientation.where = found->where;
       orientation.quaternion.push_back(std::move(found->value));

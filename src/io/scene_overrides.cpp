@@ -5,6 +5,7 @@
 
 #include "formula_text.hpp"
 #include "trajet/law/program_builder.hpp"
+#include "trajet/portable.hpp"
 #include "trajet/rigid/orientation.hpp"
 #include "trajet/scene/scene_units.hpp"
 #include "trajet/text/did_you_mean.hpp"
@@ -41,7 +42,7 @@ void set_parameter(const std::string& assignment, Scene& scene) {
   const std::size_t equals = assignment.find('=');
   if (equals == std::string::npos) throw InputError({"--set"}, "NAME=VALUE expected, got '" + assignment + "'");
   const std::string name = assignment.substr(0, equals);
-  const auto parameter = std::ranges::find(scene.parameters, name, &NamedExpression::name);
+  const auto parameter = ranges::find(scene.parameters, name, &NamedExpression::name);
   if (parameter == scene.parameters.end()) {
     std::vector<std::string_view> known;
     for (const NamedExpression& candidate : scene.parameters) known.push_back(candidate.name);

@@ -5,6 +5,8 @@
 
 #include "mesh_file.hpp"
 
+#include "trajet/portable.hpp"
+
 namespace trajet::detail {
 
 OrientationDefinition read_orientation(const TableReader& table) {
@@ -14,7 +16,7 @@ OrientationDefinition read_orientation(const TableReader& table) {
   constexpr std::array<std::string_view, 3> kAngles{"roll", "pitch", "yaw"};
   table.check_keys(kKeys);
   const bool by_angle = table.has("axis") || table.has("angle");
-  const bool by_angles = std::ranges::any_of(kAngles, [&](std::string_view key) { return table.has(key); });
+  const bool by_angles = ranges::any_of(kAngles, [&](std::string_view key) { return table.has(key); });
   const int forms = int{by_angle} + int{table.has("quaternion")} + int{table.has("matrix")} + int{by_angles};
   if (forms != 1)
     throw InputError(table.where(),

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "trajet/portable.hpp"
 #include "trajet/text/decimal_number.hpp"
 
 namespace trajet::detail {
@@ -66,7 +67,7 @@ SourceLocation TomlDocument::location(const toml::source_position& position) con
   return {file_, static_cast<int>(position.line), static_cast<int>(column) + 1};
 }
 
-long double TomlDocument::exact_number(const toml::node& node, double number) const {
+Extended TomlDocument::exact_number(const toml::node& node, double number) const {
   const std::string_view written = std::string_view(text_).substr(offset(node.source().begin));
   std::string digits;
   for (const char c : written.substr(0, written.find_first_not_of("0123456789+-.eE_")))

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "trajet/error.hpp"
+#include "trajet/portable.hpp"
 
 namespace trajet::detail {
 
@@ -30,7 +31,7 @@ class TomlDocument {
   SourceLocation location(const toml::key& key) const { return location(key.source().begin); }
 
   /// The number of a node in extended precision, from its text; `number` itself where that is not decimal.
-  long double exact_number(const toml::node& node, double number) const;
+  Extended exact_number(const toml::node& node, double number) const;
 
   /// Where each byte of a string's content stands, and where the content ends. Escape sequences count as the bytes they
   /// stand for.

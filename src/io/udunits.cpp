@@ -9,6 +9,7 @@
 #include "likely_units.hpp"
 #include "trajet/error.hpp"
 #include "trajet/io/units.hpp"
+#include "trajet/portable.hpp"
 
 namespace trajet::detail {
 
@@ -63,7 +64,7 @@ ut_status visit_galilean(const ut_unit*, double scale, const ut_unit* underlying
   if (offset != 0.0) return UT_VISIT_ERROR;
   Unit& unit = *static_cast<Unit*>(result);
   unit.numerator *= scale;
-  unit.exact_factor *= static_cast<long double>(scale);
+  unit.exact_factor *= static_cast<Extended>(scale);
   return ut_accept_visitor(underlying, &kVisitor, result);
 }
 
@@ -88,11 +89,11 @@ bool has_proper_prefix(const ut_system* system, std::string_view name) {
   const auto rest_behind = [&](std::string_view prefix) {
     return name.starts_with(prefix) ? name.substr(prefix.size()) : std::string_view();
   };
-  return std::ranges::any_of(kSymbolsOfPrefixes,
-                             [&](std::string_view p) {
-                               return std::ranges::find(kTakePrefixes, rest_behind(p)) != std::end(kTakePrefixes);
-                             }) ||
-         std::ranges::any_of(kNamesOfPrefixes, [&](std::string_view p) {
+  return ranges::any_of(kSymbolsOfPrefixes,
+                        [&](std::string_view p) {
+                          return ranges::find(kTakePrefixes, rest_behind(p)) != std::end(kTakePrefixes);
+                        }) ||
+         ranges::any_of(kNamesOfPrefixes, [&](std::string_view p) {
            const std::string rest(rest_behind(p));
            return !rest.empty() && is_listed(system, rest);
          });

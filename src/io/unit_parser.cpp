@@ -6,6 +6,7 @@
 #include "likely_units.hpp"
 #include "trajet/error.hpp"
 #include "trajet/io/units.hpp"
+#include "trajet/portable.hpp"
 
 namespace trajet {
 
@@ -106,7 +107,7 @@ class UnitParser {
 
   static bool starts_sign(std::string_view text) {
     const auto starts = [text](std::string_view sign) { return text.starts_with(sign); };
-    return starts("⁻") || starts("·") || std::ranges::any_of(kSuperscripts, starts);
+    return starts("⁻") || starts("·") || ranges::any_of(kSuperscripts, starts);
   }
 
   static bool is_name_byte(char c) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "trajet/portable.hpp"
 #include "trajet/text/did_you_mean.hpp"
 
 namespace trajet::detail {
@@ -33,9 +34,9 @@ void TableReader::check_keys(std::span<const std::string_view> allowed,
                              std::span<const std::string_view> planned) const {
   for (const auto& [key, node] : entries_in_file_order(table_)) {
     const std::string_view name = key->str();
-    if (std::ranges::find(allowed, name) != allowed.end()) continue;
+    if (ranges::find(allowed, name) != allowed.end()) continue;
     const SourceLocation where = document_.location(*key);
-    if (std::ranges::find(planned, name) != planned.end())
+    if (ranges::find(planned, name) != planned.end())
       throw InputError(where, "the key " + quote(name) + " of " + title_ +
                                   " is not supported by this version of trajet, which knows: " + join(allowed));
     const std::string hint = did_you_mean(name, allowed);
@@ -194,9 +195,9 @@ std::size_t TableReader::choice(std::string_view key, std::span<const std::strin
                                 std::size_t default_choice, std::span<const std::string_view> planned) const {
   if (!has(key)) return default_choice;
   const std::string word = text(key);
-  const auto found = std::ranges::find(choices, word);
+  const auto found = ranges::find(choices, word);
   if (found != choices.end()) return static_cast<std::size_t>(found - choices.begin());
-  if (std::ranges::find(planned, word) != planned.end())
+  if (ranges::find(planned, word) != planned.end())
     fail(key, std::string(key) + " = \"" + word +
                   "\" is not supported by this version of trajet, which knows: " + join(choices));
   fail(key, "unknown " + std::string(key) + " " + quote(word) + ", expected one of: " + join(choices) +

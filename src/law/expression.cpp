@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "syntax.hpp"
+#include "trajet/portable.hpp"
 #include "trajet/text/shortest_text.hpp"
 
 namespace trajet {
@@ -36,8 +37,7 @@ Formula vector_formula(const SyntaxNode& x, const SyntaxNode& y, const SyntaxNod
 }
 
 void collect_names(const SyntaxNode& node, std::vector<std::string>& names) {
-  if (node.kind == SyntaxNode::Kind::name && std::ranges::find(names, node.text) == names.end())
-    names.push_back(node.text);
+  if (node.kind == SyntaxNode::Kind::name && ranges::find(names, node.text) == names.end()) names.push_back(node.text);
   for (const SyntaxNode& child : node.children) collect_names(child, names);
 }
 
@@ -100,7 +100,7 @@ bool Expression::is_condition() const {
   constexpr detail::Operation kConditions[] = {less,      less_equal,  greater,    greater_equal, equal,
                                                not_equal, logical_and, logical_or, logical_not};
   return root().kind == SyntaxNode::Kind::operation &&
-         std::ranges::find(kConditions, root().operation) != std::end(kConditions);
+         ranges::find(kConditions, root().operation) != std::end(kConditions);
 }
 
 const SourceLocation& Expression::where() const { return formula_->where; }
@@ -123,7 +123,7 @@ std::vector<Expression::TableUse> Expression::tables() const {
 
 bool is_reserved_name(std::string_view name) {
   constexpr std::string_view kWords[] = {"t", "pi", "and", "or", "not"};
-  return detail::find_function(name) != nullptr || std::ranges::find(kWords, name) != std::end(kWords);
+  return detail::find_function(name) != nullptr || ranges::find(kWords, name) != std::end(kWords);
 }
 
 }  // namespace trajet

@@ -1,11 +1,11 @@
 #include "graph.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <utility>
 
 #include "trajet/law/evaluate.hpp"
+#include "trajet/portable.hpp"
 
 namespace trajet::detail {
 namespace {
@@ -17,7 +17,7 @@ bool has_exact_reciprocal(const ExtendedConstant& k) {
 }
 
 std::array<std::uint64_t, 2> bits(const ExtendedConstant& k) {
-  return {std::bit_cast<std::uint64_t>(k.value), std::bit_cast<std::uint64_t>(k.remainder)};
+  return {bit_cast<std::uint64_t>(k.value), bit_cast<std::uint64_t>(k.remainder)};
 }
 
 /// Whether the result is decided in double precision: what chooses must choose alike in every precision.
@@ -93,7 +93,7 @@ Graph::Graph(const Program& program) : Graph(program.input_count) {
   for (int i = 0; i < input_count_; ++i) node_in(i) = i;
   for (const Program::Constant& each : program.constants) node_in(each.slot) = constant(each.value);
   for (const Instruction& i : program.instructions) {
-    const auto* twins = std::ranges::find(kTwins, i.opcode, &Twins::both);
+    const auto* twins = ranges::find(kTwins, i.opcode, &Twins::both);
     if (twins != std::end(kTwins)) {
       node_in(i.result) = operation(twins->sine, {node_in(i.a)});
       node_in(i.b) = operation(twins->cosine, {node_in(i.a)});
@@ -142,7 +142,7 @@ int Graph::operation(Opcode opcode, std::array<int, 3> operands, const ExtendedC
 int Graph::fold(const Node& node) {
   const double value = computed<double>(node);
   if (is_decided_in_double(node.opcode)) return constant(value);
-  return constant({value, computed<long double>(node)});
+  return constant({value, computed<Extended>(node)});
 }
 
 template <class T>
@@ -293,7 +293,7 @@ int Graph::where(int condition, int then, int otherwise) {
 }
 
 int Graph::table(const std::shared_ptr<const LookupTable>& table, int x) {
-  const auto known = std::ranges::find(tables_, table);
+  const auto known = ranges::find(tables_, table);
   const auto index = static_cast<int>(known - tables_.begin());
   if (known == tables_.end()) tables_.push_back(table);
   return operation(Opcode::table, {x, index});
@@ -315,7 +315,7 @@ std::vector<bool> Graph::find_live(std::span<const int> outputs) const {
 
 int Graph::find_twin(const Node& node, const std::vector<bool>& live) const {
   const auto twins =
-      std::ranges::find_if(kTwins, [&](const Twins& t) { return t.sine == node.opcode || t.cosine == node.opcode; });
+      ranges::find_if(kTwins, [&](const Twins& t) { return t.sine == node.opcode || t.cosine == node.opcode; });
   if (twins == std::end(kTwins)) return -1;
   const Opcode other = node.opcode == twins->sine ? twins->cosine : twins->sine;
   const auto found = known_.find({other, node.operands, bits(node.constant)});
@@ -334,8 +334,7 @@ Instruction Graph::make_instruction(int index, int twin, const std::vector<std::
   if (count > 2) instruction.c = slot(operand(index, 2));
   if (instruction.opcode == Opcode::table) instruction.b = operand(index, 1);
   if (twin >= 0) {
-    const auto* twins =
-        std::ranges::find_if(kTwins, [&](const Twins& t) { return is(index, t.sine) || is(twin, t.sine); });
+    const auto* twins = ranges::find_if(kTwins, [&](const Twins& t) { return is(index, t.sine) || is(twin, t.sine); });
     instruction.opcode = twins->both;
     instruction.b = slot(twin);
     if (!is(index, twins->sine)) std::swap(instruction.result, instruction.b);
@@ -351,8 +350,7 @@ std::vector<int> Graph::schedule(const std::vector<bool>& live) const {
       depth[i] = std::max(depth[i], depth[static_cast<std::size_t>(operand(static_cast<int>(i), which))] + 1);
     order.push_back(static_cast<int>(i));
   }
-  std::ranges::stable_sort(order, {},
-                           [&](int i) { return std::pair(depth[static_cast<std::size_t>(i)], node(i).opcode); });
+  ranges::stable_sort(order, {}, [&](int i) { return std::pair(depth[static_cast<std::size_t>(i)], node(i).opcode); });
   return order;
 }
 

@@ -3,14 +3,13 @@
 #include <algorithm>
 
 #include "trajet/text/decimal_number.hpp"
+#include "trajet/text/name.hpp"
 
 namespace trajet::detail {
 namespace {
 
-// The language is ASCII; the <cctype> functions depend on the locale and on the sign of char.
+// The <cctype> functions depend on the locale and on the sign of char.
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
-bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; }
-bool is_name_character(char c) { return is_letter(c) || is_digit(c); }
 bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
 
 /// The character at `offset` for a message: whole where it is UTF-8, as a number where it cannot be printed.
@@ -74,7 +73,7 @@ Token Lexer::next() {
   const char c = text_[position_];
   const bool point_then_digit = c == '.' && position_ + 1 < text_.size() && is_digit(text_[position_ + 1]);
   if (is_digit(c) || point_then_digit) return number();
-  if (is_letter(c)) return name();
+  if (letter_length(text_.substr(position_)) > 0) return name();
   if (c == '"' || c == '\'') return quoted_string();
   return symbol();
 }
@@ -91,12 +90,12 @@ Token Lexer::number() {
   return token;
 }
 
-std::size_t Lexer::name_length(std::size_t begin) const {
+std::size_t Lexer::dotted_length(std::size_t begin) const {
   // NAME(.NAME)*; a point that no letter follows is not part of it.
   std::size_t end = begin;
   while (true) {
-    while (end < text_.size() && is_name_character(text_[end])) ++end;
-    if (end + 1 >= text_.size() || text_[end] != '.' || !is_letter(text_[end + 1])) return end - begin;
+    end += name_length(text_.substr(end));
+    if (end == text_.size() || text_[end] != '.' || letter_length(text_.substr(end + 1)) == 0) return end - begin;
     ++end;
   }
 }
@@ -105,13 +104,13 @@ Token Lexer::name() {
   const std::string_view rest = text_.substr(position_);
   std::size_t dashed = 0;
   for (const std::string& candidate : dashed_names_) {
-    const bool matches =
-        rest.starts_with(candidate) && (rest.size() == candidate.size() || !is_name_character(rest[candidate.size()]));
+    const bool matches = rest.starts_with(candidate) && name_character_length(rest.substr(candidate.size())) == 0;
     if (matches) dashed = std::max(dashed, candidate.size());
   }
-  const bool has_part = dashed > 0 && dashed + 1 < rest.size() && rest[dashed] == '.' && is_letter(rest[dashed + 1]);
-  const std::size_t dashed_length = has_part ? dashed + 1 + name_length(position_ + dashed + 1) : dashed;
-  return take(TokenKind::name, std::max(dashed_length, name_length(position_)));
+  const std::string_view behind = rest.substr(dashed);
+  const bool has_part = dashed > 0 && behind.starts_with('.') && letter_length(behind.substr(1)) > 0;
+  const std::size_t dashed_length = has_part ? dashed + 1 + dotted_length(position_ + dashed + 1) : dashed;
+  return take(TokenKind::name, std::max(dashed_length, dotted_length(position_)));
 }
 
 Token Lexer::quoted_string() {

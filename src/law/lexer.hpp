@@ -42,7 +42,7 @@ class Lexer {
   Token name();
   Token quoted_string();
   Token symbol();
-  std::size_t name_length(std::size_t begin) const;
+  std::size_t dotted_length(std::size_t begin) const;
 
   std::string_view text_;
   SourceLocation where_;  // of the character at position_

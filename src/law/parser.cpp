@@ -4,6 +4,7 @@
 
 #include "lexer.hpp"
 #include "syntax.hpp"
+#include "trajet/portable.hpp"
 #include "trajet/text/did_you_mean.hpp"
 
 namespace trajet::detail {
@@ -107,7 +108,7 @@ class Parser {
 
   const InfixOperator* infix_operator() const {
     if (token_.kind != TokenKind::symbol && token_.kind != TokenKind::name) return nullptr;
-    const auto found = std::ranges::find(kInfixOperators, token_.text, &InfixOperator::text);
+    const auto found = ranges::find(kInfixOperators, token_.text, &InfixOperator::text);
     return found == std::end(kInfixOperators) ? nullptr : found;
   }
 
@@ -175,7 +176,7 @@ class Parser {
 
   SyntaxNode call(SyntaxNode node, const FunctionInfo* function) {
     if (function == nullptr) {
-      const auto foreign = std::ranges::find(kForeignFunctions, node.text, &ForeignFunction::name);
+      const auto foreign = ranges::find(kForeignFunctions, node.text, &ForeignFunction::name);
       if (foreign != std::end(kForeignFunctions))
         throw InputError(node.where, "there is no function '" + node.text + "': write " + std::string(foreign->ours));
       std::vector<std::string_view> names;
@@ -256,7 +257,7 @@ class Parser {
 }  // namespace
 
 const FunctionInfo* find_function(std::string_view name) {
-  const auto found = std::ranges::find(kFunctions, name, &FunctionInfo::name);
+  const auto found = ranges::find(kFunctions, name, &FunctionInfo::name);
   return found == std::end(kFunctions) ? nullptr : found;
 }
 

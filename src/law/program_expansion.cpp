@@ -9,6 +9,8 @@
 #include "program_branches.hpp"
 #include "recurrence_step.hpp"
 
+#include "trajet/portable.hpp"
+
 namespace trajet {
 
 namespace {
@@ -181,6 +183,6 @@ void ProgramExpansionT<T>::run(Order n) {
 }
 
 template class ProgramExpansionT<double>;
-template class ProgramExpansionT<long double>;
+template class ProgramExpansionT<Extended>;
 
 }  // namespace trajet

@@ -18,7 +18,7 @@ class PaddedRungeKutta {
   using State = Eigen::VectorXd;
   static constexpr int kDimension = Eigen::Dynamic;
 
-  PaddedRungeKutta(const System& system, const StepOptions& options)
+  PaddedRungeKutta(System& system, const StepOptions& options)
       : dimension_(system.dimension()), stepper_(Rate{&system}, options), state_(dimension_) {}
 
   void start(double t, const State& q) { stepper_.start(t, padded(q)); }
@@ -44,7 +44,7 @@ class PaddedRungeKutta {
   using Padded = Eigen::Matrix<double, Dim, 1>;
 
   struct Rate {
-    const System* system;
+    System* system;
     void operator()(double t, const Padded& q, Padded& dq) const {
       dq.setZero();
       system->rate(t, q.data(), dq.data());

@@ -18,6 +18,7 @@
 #include "trajet/ode/tr_bdf2.hpp"
 #include "trajet/ode/trapezoid.hpp"
 #include "trajet/ode/velocity_verlet.hpp"
+#include "trajet/portable.hpp"
 #include "wrapped_stepper.hpp"
 
 namespace trajet {
@@ -136,7 +137,7 @@ std::span<const MethodInfo> methods() {
       row("taylor", {}, 0, 0, StepControl::adaptive, "notes: Taylor series",
           "exact derivatives; order chosen from the tolerance", make_taylor<double>, kMaxTaylorOrder),
       extended(row("taylor-extended", {}, 0, 0, StepControl::adaptive, "",
-                   "taylor in extended precision: for motions that amplify rounding", make_taylor<long double>,
+                   "taylor in extended precision: for motions that amplify rounding", make_taylor<Extended>,
                    kMaxTaylorOrder)),
       gauss("gauss6", {}, "", "Gauss collocation, symplectic: long runs keep their energy"),
 #ifdef TRAJET_WITH_SUNDIALS
@@ -168,9 +169,9 @@ std::span<const MethodInfo> methods() {
 
 const MethodInfo* find_method(std::string_view name) {
   const auto goes_by = [name](const MethodInfo& method) {
-    return method.name == name || std::ranges::find(method.aliases, name) != method.aliases.end();
+    return method.name == name || ranges::find(method.aliases, name) != method.aliases.end();
   };
-  const auto found = std::ranges::find_if(methods(), goes_by);
+  const auto found = ranges::find_if(methods(), goes_by);
   return found == methods().end() ? nullptr : &*found;
 }
 

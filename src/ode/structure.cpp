@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "trajet/portable.hpp"
+
 namespace trajet {
 namespace {
 
@@ -11,7 +13,7 @@ constexpr int kUnknown = -1;
 /// is not a mere copy of another if there is any, since dr/dt = v is nobody's fault.
 int blame(const Structure& structure, const std::vector<int>& level) {
   const auto is_unknown = [&](int i) { return level[static_cast<std::size_t>(i)] == kUnknown; };
-  const auto next = [&](int i) { return *std::ranges::find_if(structure[i].uses, is_unknown); };
+  const auto next = [&](int i) { return *ranges::find_if(structure[i].uses, is_unknown); };
   int component = 0;
   while (!is_unknown(component)) ++component;
   for (int i = 0; i < structure.dimension(); ++i) component = next(component);  // into the circle
@@ -66,7 +68,7 @@ LevelsResult find_levels(const Structure& structure) {
     std::vector<int> next;
     for (int i = 0; i < structure.dimension(); ++i) {
       const auto is_placed = [&](int j) { return level[static_cast<std::size_t>(j)] != kUnknown; };
-      if (!is_placed(i) && std::ranges::all_of(structure[i].uses, is_placed)) next.push_back(i);
+      if (!is_placed(i) && ranges::all_of(structure[i].uses, is_placed)) next.push_back(i);
     }
     if (next.empty()) {
       result.unsuitable = {blame(structure, level), "depends on the motion that it causes, not on t alone"};

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "trajet/ode/stepper.hpp"
+#include "trajet/portable.hpp"
 
 namespace trajet::detail {
 
@@ -46,7 +47,7 @@ class WrappedStepper final : public AnyStepper {
       AnyStepper::start_extended(t, q);
     }
   }
-  std::optional<ExtendedState> extended_state(long double tau) const override {
+  std::optional<ExtendedState> extended_state(Extended tau) const override {
     if constexpr (requires { stepper_.extended_state(tau); }) return stepper_.extended_state(tau);
     return std::nullopt;
   }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "trajet/portable.hpp"
 #include "trajet/rigid/principal_axes.hpp"
 
 namespace trajet {
@@ -51,7 +52,7 @@ std::optional<FreeRotation::Tumbling> FreeRotation::tumbling(const Quaternion& q
   // The momentum turns around the axis of the largest moment c if L^2 >= 2 T b, that is c (c - b) w_c^2 >= a (b - a)
   // w_a^2 for a <= b <= c, else around that of the least; around that of a symmetric top in any case.
   std::array<int, 3> order{0, 1, 2};
-  std::ranges::sort(order, {}, [&](int i) { return principal.moments[i]; });
+  ranges::sort(order, {}, [&](int i) { return principal.moments[i]; });
   const auto moment = [&](std::size_t i) { return principal.moments[order[i]]; };
   const auto square = [&](std::size_t i) { return w_P[order[i]] * w_P[order[i]]; };
   const double around_largest = moment(2) * (moment(2) - moment(1)) * square(2);

@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "trajet/portable.hpp"
+
 namespace trajet {
 
 std::span<const OrientationInfo> orientation_ways() {
@@ -35,12 +37,12 @@ std::span<const OrientationInfo> orientation_ways() {
 
 const OrientationInfo* find_orientation_way(std::string_view name) {
   for (const OrientationInfo& info : orientation_ways())
-    if (info.name == name || std::ranges::find(info.aliases, name) != info.aliases.end()) return &info;
+    if (info.name == name || ranges::find(info.aliases, name) != info.aliases.end()) return &info;
   return nullptr;
 }
 
 const OrientationInfo& orientation_info(OrientationWay way) {
-  return *std::ranges::find(orientation_ways(), way, &OrientationInfo::way);
+  return *ranges::find(orientation_ways(), way, &OrientationInfo::way);
 }
 
 void OrientationLayout::put(const Quaternion& q_WB, double* part) const {

@@ -4,6 +4,7 @@
 
 #include "solid_maker.hpp"
 #include "trajet/geom/mass_properties.hpp"
+#include "trajet/portable.hpp"
 #include "trajet/rigid/principal_axes.hpp"
 
 namespace trajet {
@@ -71,7 +72,7 @@ std::optional<World::Rotation> rotation(const BodyDefinition& d, const Solid& so
                                         const MethodOptions& method) {
   const std::optional<Expression>* const laws[] = {&d.angular_acceleration, &d.angular_acceleration_body, &d.torque,
                                                    &d.torque_body, &d.force_point};
-  const auto law = std::ranges::find_if(laws, [](const auto* each) { return each->has_value(); });
+  const auto law = ranges::find_if(laws, [](const auto* each) { return each->has_value(); });
   const bool has_law = law != std::end(laws);
   if (!has_law && !d.angular_velocity && !d.angular_velocity_body) return std::nullopt;
 

@@ -7,6 +7,7 @@
 
 #include "law_symbols.hpp"
 #include "trajet/law/evaluate.hpp"
+#include "trajet/portable.hpp"
 #include "trajet/text/shortest_text.hpp"
 
 namespace trajet {
@@ -15,7 +16,7 @@ namespace {
 using Formula = World::LawFormula;
 
 bool is_finite(const std::vector<double>& values) {
-  return std::ranges::all_of(values, [](double value) { return std::isfinite(value); });
+  return ranges::all_of(values, [](double value) { return std::isfinite(value); });
 }
 
 std::string text_of(double value) { return std::isnan(value) ? "not-a-number" : shortest_text(value); }
@@ -78,7 +79,7 @@ class LawReading {
       const auto first = rate.begin() + each.first;
       return !is_finite({first, first + each.size}) && !is_finite(value(each.text, each, t, q));
     };
-    const auto found = std::ranges::find_if(group_.formulas, fails);
+    const auto found = ranges::find_if(group_.formulas, fails);
     return found == group_.formulas.end() ? nullptr : &*found;
   }
 
@@ -115,7 +116,7 @@ class LawReading {
   std::string name_of(int component) const {
     for (const World::ExtraState& each : world_.states)
       if (each.group == index_ && each.offset == component) return "state '" + each.name + "'";
-    const auto owner = std::ranges::find_if(group_.bodies.rbegin(), group_.bodies.rend(), [&](int b) {
+    const auto owner = ranges::find_if(group_.bodies.rbegin(), group_.bodies.rend(), [&](int b) {
       return world_.bodies[static_cast<std::size_t>(b)].offset <= component;
     });
     const World::Body& body = world_.bodies[static_cast<std::size_t>(*owner)];
@@ -131,7 +132,7 @@ class LawReading {
     return world_.bodies[static_cast<std::size_t>(formula.body)];
   }
   const World::ExtraState& state(const Formula& formula) const {
-    return *std::ranges::find_if(world_.states, [&](const World::ExtraState& each) {
+    return *ranges::find_if(world_.states, [&](const World::ExtraState& each) {
       return each.group == index_ && each.offset == formula.first;
     });
   }
@@ -201,7 +202,7 @@ std::string describe_failure(const World& world, int group, double t, const Eige
   const LawReading law(world, group);
   if (const Formula* formula = law.find_not_finite(t, q)) return law.describe(*formula, t, q);
   const std::vector<double> rate = law.rate(t, q);
-  const auto broken = std::ranges::find_if(rate, [](double value) { return !std::isfinite(value); });
+  const auto broken = ranges::find_if(rate, [](double value) { return !std::isfinite(value); });
   if (broken != rate.end()) {  // a quotient of finite formulas: a force and a mass
     const int component = static_cast<int>(broken - rate.begin());
     return "the rate of " + law.name_of(component) + " is " + text_of(*broken) + law.describe_all(component, t, q);

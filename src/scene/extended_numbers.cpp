@@ -1,11 +1,12 @@
 #include "extended_numbers.hpp"
 
 #include "trajet/law/program_builder.hpp"
+#include "trajet/portable.hpp"
 
 namespace trajet {
 namespace {
 
-using Real = long double;
+using Real = Extended;
 
 class ExtendedReader {
  public:

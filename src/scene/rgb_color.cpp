@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <vector>
 
+#include "trajet/portable.hpp"
 #include "trajet/text/did_you_mean.hpp"
 
 namespace trajet {
@@ -51,8 +52,7 @@ std::string color_text(const RgbColor& color) {
 
 std::optional<RgbColor> find_color(std::string_view text) {
   const std::string wanted = lower(text);
-  if (const auto* named = std::ranges::find(kColors, wanted, &NamedColor::name); named != kColors.end())
-    return named->color;
+  if (const auto* named = ranges::find(kColors, wanted, &NamedColor::name); named != kColors.end()) return named->color;
   constexpr std::string_view kDigits = "0123456789abcdef";
   if (wanted.size() != 7 || wanted.front() != '#') return std::nullopt;
   std::uint8_t parts[3];

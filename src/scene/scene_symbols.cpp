@@ -7,6 +7,7 @@
 #include <variant>
 
 #include "trajet/law/program_builder.hpp"
+#include "trajet/portable.hpp"
 
 namespace trajet {
 namespace {
@@ -40,7 +41,7 @@ class ParameterEvaluation {
     const auto is_finite = [](const ExtendedConstant& number) { return std::isfinite(number.value); };
     const auto* vector = std::get_if<Symbols::ConstantVector>(&value);
     const bool finite =
-        vector == nullptr ? is_finite(std::get<ExtendedConstant>(value)) : std::ranges::all_of(*vector, is_finite);
+        vector == nullptr ? is_finite(std::get<ExtendedConstant>(value)) : ranges::all_of(*vector, is_finite);
     if (!finite) throw InputError(parameter.value.where(), "parameter '" + parameter.name + "' is not a finite number");
     std::visit([&](const auto& number) { symbols_.set_constant(parameter.name, number); }, value);
   }

@@ -7,6 +7,8 @@
 
 #include "scene_symbols.hpp"
 
+#include "trajet/portable.hpp"
+
 namespace trajet {
 namespace {
 
@@ -26,7 +28,7 @@ class ParameterSurvey {
   Measure find(std::string_view name) {
     const auto known = measures_.find(name);
     if (known != measures_.end()) return known->second;
-    const auto parameter = std::ranges::find(scene_.parameters, name, &NamedExpression::name);
+    const auto parameter = ranges::find(scene_.parameters, name, &NamedExpression::name);
     if (parameter == scene_.parameters.end()) return {};
     measures_[parameter->name] = {};  // for a circle, which is an error elsewhere
     const Measure found = measure(parameter->value, [this](std::string_view used) { return find(used); });
@@ -53,7 +55,7 @@ Dimension dimension_of_part(std::string_view part) {
 }
 
 bool is_part(std::string_view name) {
-  return find_body_part(name) != nullptr || std::ranges::find(kRotationNames, name) != std::end(kRotationNames);
+  return find_body_part(name) != nullptr || ranges::find(kRotationNames, name) != std::end(kRotationNames);
 }
 
 class UnitCheck {

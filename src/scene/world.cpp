@@ -5,7 +5,6 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <set>
 #include <string_view>
 #include <unordered_map>
 
@@ -15,12 +14,14 @@
 #include "law_symbols.hpp"
 #include "partition.hpp"
 #include "scene_method.hpp"
+#include "scene_names.hpp"
 #include "scene_numbers.hpp"
 #include "scene_symbols.hpp"
 #include "solid_maker.hpp"
 #include "start_check.hpp"
 #include "trajet/law/evaluate.hpp"
 #include "trajet/law/program_builder.hpp"
+#include "trajet/portable.hpp"
 #include "trajet/scene/scene_units.hpp"
 
 namespace trajet {
@@ -44,7 +45,6 @@ class WorldBuilder {
     world_.parameters = parameters_.values;
     world_.tables = scene_.tables;
     world_.warnings = scene_.warnings;
-    check_names();
     set_time();
     set_method(scene_.method, numbers_, world_);
     world_.obstacles.reserve(scene_.obstacles.size());
@@ -71,21 +71,6 @@ class WorldBuilder {
   // Members of the partition: bodies, then extra states, then events.
   int state_member(std::size_t i) const { return static_cast<int>(scene_.bodies.size() + i); }
   int event_member(std::size_t i) const { return static_cast<int>(scene_.bodies.size() + scene_.states.size() + i); }
-
-  void check_names() const {
-    if (scene_.bodies.empty() && scene_.states.empty())
-      throw InputError({scene_.file, 1, 1}, "nothing moves: the scene has neither a [[body]] nor a [[state]]");
-    std::set<std::string_view> names;
-    const auto check = [&](const std::string& name, const SourceLocation& where) {
-      if (!names.insert(name).second) throw InputError(where, "the name '" + name + "' is used twice");
-    };
-    for (const NamedExpression& parameter : scene_.parameters) check(parameter.name, parameter.where);
-    for (const BodyDefinition& body : scene_.bodies) check(body.name, body.where);
-    for (const StateDefinition& state : scene_.states) check(state.name, state.where);
-    for (const ObstacleDefinition& obstacle : scene_.obstacles) check(obstacle.name, obstacle.where);
-    names.clear();
-    for (const EventDefinition& event : scene_.events) check(event.name, event.where);
-  }
 
   void set_time() {
     const TimeOptions& time = scene_.time;
@@ -318,12 +303,12 @@ class WorldBuilder {
   /// The closed form of the rotation of the body in `name`, BODY.PART.
   World::ClosedRotation& exact_rotation(const std::string& name, const SourceLocation& where) {
     const std::string_view owner = std::string_view(name).substr(0, name.find('.'));
-    const auto body = std::ranges::find(world_.bodies, owner, &World::Body::name);
+    const auto body = ranges::find(world_.bodies, owner, &World::Body::name);
     if (body == world_.bodies.end()) throw InputError(where, "there is no body of '" + name + "'");
     if (!body->rotation)
       throw InputError(where, "body '" + body->name + "' does not turn: give it an `angular_velocity`, which may be 0");
     const int index = static_cast<int>(body - world_.bodies.begin());
-    const auto known = std::ranges::find(world_.exact_rotations, index, &World::ClosedRotation::body);
+    const auto known = ranges::find(world_.exact_rotations, index, &World::ClosedRotation::body);
     if (known != world_.exact_rotations.end()) return *known;
     return world_.exact_rotations.emplace_back(World::ClosedRotation{.body = index});
   }
@@ -398,6 +383,9 @@ class WorldBuilder {
 
 }  // namespace
 
-World make_world(const Scene& scene) { return WorldBuilder(scene).build(); }
+World make_world(const Scene& scene) {
+  detail::check_names(scene);
+  return WorldBuilder(scene).build();
+}
 
 }  // namespace trajet

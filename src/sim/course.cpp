@@ -6,6 +6,7 @@
 
 #include "instant.hpp"
 #include "trajet/math/polynomial.hpp"
+#include "trajet/portable.hpp"
 #include "trajet/sim/state_at.hpp"
 
 namespace trajet {
@@ -75,7 +76,7 @@ void Course::begin(double t, const Eigen::VectorXd& q, const Instant* instant) {
   if (const auto extended = instant != nullptr ? instant->extended() : std::nullopt) {
     // orientations were put right in double precision
     const auto is_right = (extended->cast<double>().array() == end_state_.array());
-    stepper_->start_extended(t, is_right.select(*extended, end_state_.cast<long double>()));
+    stepper_->start_extended(t, is_right.select(*extended, end_state_.cast<Extended>()));
   } else if (instant == nullptr && world_.extended) {
     stepper_->start_extended(t, world_.extended->starts[static_cast<std::size_t>(group_)]);
   } else {
@@ -91,7 +92,7 @@ void Course::begin(double t, const Eigen::VectorXd& q, const Instant* instant) {
   next_ = {t};
 }
 
-std::optional<Eigen::VectorX<long double>> Course::extended_state(long double tau) const {
+std::optional<Eigen::VectorX<Extended>> Course::extended_state(Extended tau) const {
   const bool is_step = segment_.duration() != 0.0 && segment_.t1() == stepper_->time() && rest_of_step_.empty();
   return is_step ? stepper_->extended_state(tau) : std::nullopt;
 }
@@ -109,7 +110,7 @@ void Course::restart(const Instant& instant) {
   const auto same = [](const RestingContact& a, const RestingContact& b) {
     return a.body == b.body && a.obstacle == b.obstacle && a.normal == b.normal && a.point == b.point;
   };
-  if (!std::ranges::equal(contacts_, instant.contacts, same)) {
+  if (!ranges::equal(contacts_, instant.contacts, same)) {
     contacts_ = instant.contacts;
     use_contacts();
   }
@@ -170,7 +171,7 @@ void Course::find_next() {
 }
 
 Course::Watch& Course::watch(int event) {
-  return *std::ranges::find_if(
+  return *ranges::find_if(
       watches_, [&](const Watch& watch) { return watch.kind == Crossing::Kind::event && watch.index == event; });
 }
 
@@ -216,7 +217,7 @@ StepStatistics Course::statistics() const {
 
 std::vector<std::string> Course::warnings() const {
   std::vector<std::string> all = finished_warnings_;
-  std::ranges::copy(stepper_->warnings(), std::back_inserter(all));
+  ranges::copy(stepper_->warnings(), std::back_inserter(all));
   return all;
 }
 

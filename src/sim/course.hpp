@@ -12,6 +12,7 @@
 #include "trajet/collide/sustain/resting_contact.hpp"
 #include "trajet/event/event_watch.hpp"
 #include "trajet/ode/registry.hpp"
+#include "trajet/portable.hpp"
 #include "trajet/scene/program_system.hpp"
 #include "trajet/scene/world.hpp"
 #include "trajet/sim/run_observer.hpp"
@@ -69,7 +70,7 @@ class Course {
   bool is_extended() const { return stepper_->is_extended(); }
   /// The state `tau` (s) behind the start of the current Segment, which is a step of the method, in that precision;
   /// none where it is known in double precision only.
-  std::optional<Eigen::VectorX<long double>> extended_state(long double tau) const;
+  std::optional<Eigen::VectorX<Extended>> extended_state(Extended tau) const;
   /// The law in a state: dq/dt, without and with the forces of lasting contacts.
   Eigen::VectorXd free_rate(double t, const Eigen::VectorXd& q) const;
   Eigen::VectorXd rate(double t, const Eigen::VectorXd& q) const;
@@ -91,7 +92,7 @@ class Course {
     EventWatch watch;
   };
 
-  const System& law() const { return held_system_ ? *held_system_ : *free_system_; }
+  System& law() { return held_system_ ? *held_system_ : *free_system_; }
   /// The law with the present lasting contacts, a stepper for it, and watches for the contacts' ends.
   void use_contacts();
   /// `instant`: at which the course goes on; null at the start.

@@ -5,6 +5,7 @@
 
 #include "trajet/collide/detect/contact_table.hpp"
 #include "trajet/event/path.hpp"
+#include "trajet/portable.hpp"
 
 namespace trajet {
 namespace {
@@ -27,12 +28,12 @@ Encounters::Encounters(const World& world) : world_(world), bodies_(world.bodies
   if (!boxes.empty()) tree_.emplace(boxes);
 }
 
-Pair& Encounters::pair(PairId id) { return *std::ranges::find(around(id.body).pairs, id, &Pair::id); }
+Pair& Encounters::pair(PairId id) { return *ranges::find(around(id.body).pairs, id, &Pair::id); }
 
 Pair& Encounters::find_or_add(int body, int obstacle, double t) {
   std::vector<Pair>& pairs = around(body).pairs;
   const PairId id{body, obstacle};
-  const auto found = std::ranges::find(pairs, id, &Pair::id);
+  const auto found = ranges::find(pairs, id, &Pair::id);
   return found != pairs.end() ? *found : pairs.emplace_back(Pair{.id = id, .known_at = t, .searched_to = t});
 }
 
@@ -95,9 +96,16 @@ void Encounters::follow(int body, const Course& course, double until) {
 void Encounters::search(int body, const Course& course, double until) {
   if (!tree_) return;
   Around& around = this->around(body);
-  while (around.searched_to < until && first(body) == nullptr) {
+  while (around.searched_to < until) {
     const double from = around.searched_to;
     double to = course.segment().t1();
+    if (const Pair* met = first(body)) {
+      // what meets the body at the same time to rounding belongs to the same instant
+      constexpr double kResolutions = 16.0;
+      const double last = met->contact.time + kResolutions * met->contact.time_resolution;
+      if (from >= last) return;
+      to = std::min(to, last);
+    }
     if (around.stride > 0.0) to = std::min(to, from + 2.0 * around.stride);
     std::optional<std::vector<int>> candidates = near(swept(body, course, from, to));
     while (!candidates) {
@@ -115,11 +123,11 @@ void Encounters::search(int body, const Course& course, double until) {
       candidates = near(swept(body, course, from, to));
     }
     around.stride = to - from;
-    std::ranges::sort(*candidates);
+    ranges::sort(*candidates);
     // what is far away now is not known of when it is met again
     std::erase_if(around.pairs, [&](const Pair& pair) {
-      return !pair.is_lasting && !std::ranges::binary_search(*candidates, pair.id.obstacle) &&
-             std::ranges::binary_search(in_tree_, pair.id.obstacle);
+      return !pair.is_lasting && !ranges::binary_search(*candidates, pair.id.obstacle) &&
+             ranges::binary_search(in_tree_, pair.id.obstacle);
     });
     for (const int obstacle : *candidates) {
       Pair& pair = find_or_add(body, obstacle, from);

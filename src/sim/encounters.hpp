@@ -27,7 +27,7 @@ struct Pair {
 ///
 /// A few obstacles, and those without bounds, are searched over the whole Segment. Of many, the near ones are found by
 /// boxes: the Segment is walked piece by piece, each as long as its swept box meets few of them, and the walk ends at
-/// the first contact. What is far away costs the logarithm of how much there is.
+/// the first contact, whichever obstacle it is with. What is far away costs the logarithm of how much there is.
 class Encounters {
  public:
   explicit Encounters(const World& world);

@@ -3,11 +3,12 @@
 #include <variant>
 
 #include "trajet/geom/closest_point.hpp"
+#include "trajet/portable.hpp"
 
 namespace trajet {
 namespace {
 
-using Real = long double;
+using Real = Extended;
 using RealVector = Vector3T<Real>;
 
 /// How far a ball's centre is from touching a shape, and the unit normal of the shape there.

@@ -1,5 +1,7 @@
 #include "instant.hpp"
 
+#include "trajet/portable.hpp"
+
 namespace trajet {
 
 Instant::Instant(const Course& course, double time)
@@ -10,19 +12,19 @@ Instant::Instant(const Course& course, double time)
       time_(time),
       before_(q) {
   if (course.is_extended())
-    extended_ = course.extended_state(static_cast<long double>(time) - static_cast<long double>(course.segment().t0()));
+    extended_ = course.extended_state(static_cast<Extended>(time) - static_cast<Extended>(course.segment().t0()));
 }
 
-void Instant::set_extended(int first, const Vector3T<long double>& part) {
+void Instant::set_extended(int first, const Vector3T<Extended>& part) {
   if (!extended_) return;
   extended_->segment<3>(first) = part;
   q.segment<3>(first) = part.cast<double>();
 }
 
-std::optional<Eigen::VectorX<long double>> Instant::extended() const {
+std::optional<Eigen::VectorX<Extended>> Instant::extended() const {
   if (!extended_) return std::nullopt;
   // what has changed since is known in double precision only
-  Eigen::VectorX<long double> all = q.cast<long double>();
+  Eigen::VectorX<Extended> all = q.cast<Extended>();
   for (Eigen::Index i = 0; i < q.size(); ++i)
     if (static_cast<double>((*extended_)[i]) == q[i]) all[i] = (*extended_)[i];
   return all;

@@ -7,6 +7,7 @@
 
 #include "course.hpp"
 #include "trajet/collide/detect/contact.hpp"
+#include "trajet/portable.hpp"
 
 namespace trajet {
 
@@ -40,10 +41,10 @@ class Instant {
 
   /// Where the course carries its state in extended precision: three components of the new state, from `first` on, with
   /// all their digits. `q` takes them rounded.
-  void set_extended(int first, const Vector3T<long double>& part);
+  void set_extended(int first, const Vector3T<Extended>& part);
   /// `q` with the digits behind double precision that are known of it, if there are any: of what was set so, and of
   /// what is as it was before.
-  std::optional<Eigen::VectorX<long double>> extended() const;
+  std::optional<Eigen::VectorX<Extended>> extended() const;
 
   /// dq/dt in state `q`, the forces of `contacts` included.
   Eigen::VectorXd rate() const;
@@ -58,7 +59,7 @@ class Instant {
   const Course& course_;
   double time_;
   Eigen::VectorXd before_;
-  std::optional<Eigen::VectorX<long double>> extended_;  // as it was before, or as it was set
+  std::optional<Eigen::VectorX<Extended>> extended_;  // as it was before, or as it was set
 };
 
 }  // namespace trajet

@@ -8,6 +8,7 @@
 #include "trajet/geom/closest_point.hpp"
 #include "trajet/geom/distance.hpp"
 #include "trajet/geom/flat_faces.hpp"
+#include "trajet/portable.hpp"
 
 namespace trajet {
 namespace {
@@ -58,7 +59,7 @@ void LastingContacts::release_by_force(Instant& instant, int held) {
     const std::vector<Vector3> release_directions = instant.support(offset).release;
     // the contacts that are left share the load anew
     auto direction = release_directions.begin();
-    const auto pulls = std::ranges::find_if(instant.contacts, [&](const RestingContact& contact) {
+    const auto pulls = ranges::find_if(instant.contacts, [&](const RestingContact& contact) {
       return contact.body == held && (direction++)->dot(acceleration) > 0.0;
     });
     if (pulls == instant.contacts.end()) return;
@@ -71,15 +72,15 @@ void LastingContacts::release_after_set(Instant& instant) {
   const Eigen::VectorXd& before = instant.before();
   for (const int index : instant.course().group().bodies) {
     const auto is_of_body = [&](const RestingContact& contact) { return contact.body == index; };
-    if (std::ranges::none_of(instant.contacts, is_of_body)) continue;
+    if (ranges::none_of(instant.contacts, is_of_body)) continue;
     const int offset = body(index).offset;
     if (instant.q.segment<3>(offset) == before.segment<3>(offset)) {
       release_by_speed(instant, index);
       release_by_force(instant, index);
       continue;
     }
-    for (auto contact = std::ranges::find_if(instant.contacts, is_of_body); contact != instant.contacts.end();
-         contact = std::ranges::find_if(instant.contacts, is_of_body)) {
+    for (auto contact = ranges::find_if(instant.contacts, is_of_body); contact != instant.contacts.end();
+         contact = ranges::find_if(instant.contacts, is_of_body)) {
       record(*contact, ImpactKind::leave, instant.time(), before);
       end(instant, static_cast<int>(contact - instant.contacts.begin()));
     }
@@ -111,7 +112,7 @@ void LastingContacts::record_until(double time) {
     const Coming rest = *coming_.begin();
     coming_.erase(coming_.begin());
     const Course& course = *courses_[static_cast<std::size_t>(body(rest.id.body).group)];
-    const auto contact = std::ranges::find_if(course.contacts(), [&](const RestingContact& each) {
+    const auto contact = ranges::find_if(course.contacts(), [&](const RestingContact& each) {
       return PairId{each.body, each.obstacle} == rest.id;
     });
     Impact impact = describe(world_, *contact, ImpactKind::rest, rest.time, course.state(rest.time));
@@ -143,7 +144,7 @@ void LastingContacts::rest_on_continuation(Instant& instant, const RestingContac
            !moves_off(face_outline(next.shape, ahead, left.normal), position, velocity);
   };
   const std::vector<Pair>& pairs = encounters_.pairs(left.body);
-  const auto found = std::ranges::find_if(pairs, continues);
+  const auto found = ranges::find_if(pairs, continues);
   if (found == pairs.end()) return;
   RestingContact next = left;
   next.obstacle = found->id.obstacle;

@@ -5,6 +5,8 @@
 
 #include "body_state.hpp"
 
+#include "trajet/portable.hpp"
+
 namespace trajet {
 namespace {
 
@@ -102,7 +104,7 @@ void Recorder::warn_of_tie(const Impact& impact, const std::string& body, const 
 }
 
 void Recorder::warn(const std::string& text) {
-  if (std::ranges::find(result_.warnings, text) == result_.warnings.end()) result_.warnings.push_back(text);
+  if (ranges::find(result_.warnings, text) == result_.warnings.end()) result_.warnings.push_back(text);
 }
 
 void Recorder::end(RunStatus status, const std::string& failure) {

@@ -5,13 +5,15 @@
 #include <numeric>
 #include <unsupported/Eigen/MatrixFunctions>
 
+#include "trajet/portable.hpp"
+
 namespace trajet {
 namespace {
 
 /// So many steps are kept before they are worked off.
 constexpr std::size_t kMostOpenSteps = 64;
 
-Eigen::MatrixXd jacobian(const System& law, double t, const Eigen::VectorXd& q) {
+Eigen::MatrixXd jacobian(System& law, double t, const Eigen::VectorXd& q) {
   Eigen::MatrixXd dg_dq(q.size(), q.size());
   Eigen::VectorXd dg_dt(q.size());
   law.jacobian(t, q.data(), dg_dq.data(), dg_dt.data());
@@ -22,7 +24,7 @@ Eigen::MatrixXd jacobian(const System& law, double t, const Eigen::VectorXd& q) 
 
 StateError::StateError(int dimension, double roundoff) : roundoff_(roundoff), generators_(dimension, 0) {}
 
-StateError::Step StateError::step_until(const System& law, const Segment<>& segment, double t) const {
+StateError::Step StateError::step_until(System& law, const Segment<>& segment, double t) const {
   Step step{&law, segment.t0(), t - segment.t0(), segment.coefficients().col(0), {}, {}, segment.error_bound()};
   step.in_middle = segment.state(segment.t0() + 0.5 * step.duration);
   step.at_end = segment.state(t);
@@ -48,7 +50,7 @@ Eigen::MatrixXd StateError::transition(const Step& step) {
   return result.allFinite() ? result : Eigen::MatrixXd::Identity(n, n);
 }
 
-void StateError::pass(const System& law, const Segment<>& segment, double t) {
+void StateError::pass(System& law, const Segment<>& segment, double t) {
   open_.push_back(step_until(law, segment, t));
   if (open_.size() >= kMostOpenSteps) settle();
 }
@@ -82,7 +84,7 @@ void StateError::reduce() {
   const Eigen::VectorXd excess = generators_.cwiseAbs().colwise().sum() - generators_.cwiseAbs().colwise().maxCoeff();
   std::vector<Eigen::Index> order(static_cast<std::size_t>(count));
   std::iota(order.begin(), order.end(), Eigen::Index{0});
-  std::ranges::stable_sort(order, {}, [&](Eigen::Index column) { return excess[column]; });
+  ranges::stable_sort(order, {}, [&](Eigen::Index column) { return excess[column]; });
   const Eigen::Index kept = n;
   Eigen::MatrixXd reduced(n, kept + n);
   Eigen::VectorXd box = Eigen::VectorXd::Zero(n);
@@ -93,7 +95,7 @@ void StateError::reduce() {
   generators_ = std::move(reduced);
 }
 
-Eigen::VectorXd StateError::bound(const System& law, const Segment<>& segment, double t) {
+Eigen::VectorXd StateError::bound(System& law, const Segment<>& segment, double t) {
   settle();
   const Step part = step_until(law, segment, t);
   if (generators_.cols() == 0) return part.error;
@@ -101,7 +103,7 @@ Eigen::VectorXd StateError::bound(const System& law, const Segment<>& segment, d
   return part.error + moved.cwiseAbs().rowwise().sum();
 }
 
-double StateError::bound_along(const Eigen::VectorXd& direction, const System& law, const Segment<>& segment,
+double StateError::bound_along(const Eigen::VectorXd& direction, System& law, const Segment<>& segment,
                                double t) {
   settle();
   const Step part = step_until(law, segment, t);

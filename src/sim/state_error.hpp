@@ -23,27 +23,27 @@ class StateError {
   StateError(int dimension, double roundoff);
 
   /// The motion under the law goes on behind time t on the Segment.
-  void pass(const System& law, const Segment<>& segment, double t);
+  void pass(System& law, const Segment<>& segment, double t);
   /// The state has changed; `derivative`: of the state behind by the state before.
   void jump(const Eigen::MatrixXd& derivative);
   /// All steps are worked off: their laws may go.
   void settle();
 
   /// At time t on the Segment, behind what was passed, in each component's unit.
-  Eigen::VectorXd bound(const System& law, const Segment<>& segment, double t);
+  Eigen::VectorXd bound(System& law, const Segment<>& segment, double t);
   /// The same along one direction of the state.
-  double bound_along(const Eigen::VectorXd& direction, const System& law, const Segment<>& segment, double t);
+  double bound_along(const Eigen::VectorXd& direction, System& law, const Segment<>& segment, double t);
 
  private:
   struct Step {
-    const System* law;
+    System* law;
     double start;     // s
     double duration;  // s
     Eigen::VectorXd at_start, in_middle, at_end;
     Eigen::VectorXd error;  // that it adds
   };
 
-  Step step_until(const System& law, const Segment<>& segment, double t) const;
+  Step step_until(System& law, const Segment<>& segment, double t) const;
   static Eigen::MatrixXd transition(const Step& step);
   void add(const Eigen::VectorXd& error);
   void reduce();

@@ -5,6 +5,8 @@
 
 #include "impact_record.hpp"
 
+#include "trajet/portable.hpp"
+
 namespace trajet {
 namespace {
 
@@ -13,7 +15,7 @@ const World::Obstacle& obstacle_of(const World& world, const Pair& pair) {
 }
 
 const Pair& pair_of(const Encounters& encounters, PairId id) {
-  return *std::ranges::find(encounters.pairs(id.body), id, &Pair::id);
+  return *ranges::find(encounters.pairs(id.body), id, &Pair::id);
 }
 
 }  // namespace

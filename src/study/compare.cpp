@@ -8,6 +8,7 @@
 
 #include "carried_orientations.hpp"
 #include "error_meter.hpp"
+#include "trajet/portable.hpp"
 #include "trajet/sim/observer_list.hpp"
 #include "trajet/sim/run.hpp"
 
@@ -89,7 +90,7 @@ class ComparisonRun {
     std::vector<const MethodInfo*> chosen;
     for (const std::string& name : plan_.methods) {
       const MethodInfo& found = method(name, plan_.methods_where);
-      if (std::ranges::find(chosen, &found) == chosen.end()) chosen.push_back(&found);
+      if (ranges::find(chosen, &found) == chosen.end()) chosen.push_back(&found);
     }
     if (plan_.methods.empty())
       for (const MethodInfo& each : methods()) chosen.push_back(&each);
@@ -98,12 +99,11 @@ class ComparisonRun {
 
   /// None where no body turns.
   std::vector<const OrientationInfo*> compared_orientations() const {
-    const bool turns =
-        std::ranges::any_of(base_.bodies, [](const World::Body& body) { return body.rotation.has_value(); });
+    const bool turns = ranges::any_of(base_.bodies, [](const World::Body& body) { return body.rotation.has_value(); });
     if (!plan_.orientations.empty() && !turns) throw InputError(plan_.orientations_where, "no body of the scene turns");
     std::vector<const OrientationInfo*> chosen;
     for (const OrientationWay way : plan_.orientations)
-      if (std::ranges::find(chosen, &orientation_info(way)) == chosen.end()) chosen.push_back(&orientation_info(way));
+      if (ranges::find(chosen, &orientation_info(way)) == chosen.end()) chosen.push_back(&orientation_info(way));
     if (chosen.empty()) chosen.push_back(turns ? &orientation_info(scene_.method.orientation) : nullptr);
     return chosen;
   }
@@ -219,13 +219,13 @@ class ComparisonRun {
     if (!plan_.reference.empty()) return {&method(plan_.reference, plan_.reference_where)};
     const std::vector<const MethodInfo*> compared = compared_methods();
     const auto rank = [&](const MethodInfo* method) {
-      const bool is_compared = std::ranges::find(compared, method) != compared.end();
+      const bool is_compared = ranges::find(compared, method) != compared.end();
       return std::pair(is_compared, -std::max(method->order, method->max_order));
     };
     std::vector<const MethodInfo*> candidates;
     for (const MethodInfo& each : methods())
       if (is_adaptive(each)) candidates.push_back(&each);
-    std::ranges::stable_sort(candidates, {}, rank);
+    ranges::stable_sort(candidates, {}, rank);
     return candidates;
   }
 
@@ -235,7 +235,7 @@ class ComparisonRun {
       told = with_tolerance(method, kReferenceTolerance);
       told.atol = std::min(kReferenceTolerance, scene_.method.atol ? base_atol() : kReferenceTolerance);
     } else {
-      told = with_steps(method, kReferenceRefinement * std::ranges::max(step_counts()));
+      told = with_steps(method, kReferenceRefinement * ranges::max(step_counts()));
     }
     told.where = plan_.reference_where;
     const auto recorded = std::make_shared<RecordedReference>();

@@ -14,7 +14,7 @@ class ErrorMeter : public RunObserver {
  public:
   /// `reference_world` says what the numbers of the reference's states mean: its orientations may be carried in another
   /// way. Both outlive the meter.
-  ErrorMeter(const Reference& reference, const World& reference_world)
+  ErrorMeter(Reference& reference, const World& reference_world)
       : reference_(reference), reference_world_(reference_world) {}
 
   RunWishes wishes() const override { return {.motion = true}; }
@@ -49,7 +49,7 @@ class ErrorMeter : public RunObserver {
   /// Of the states that are at hand, those of the sample of that index.
   void note_rotation(int group, long sample, double t);
 
-  const Reference& reference_;
+  Reference& reference_;
   const World& reference_world_;
   const World* world_ = nullptr;  // while the run lasts
   double start_ = 0.0;            // s

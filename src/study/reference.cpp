@@ -44,7 +44,7 @@ ClosedFormReference::ClosedFormReference(const World& world) : closed_forms_(wor
   }
 }
 
-void ClosedFormReference::Rotation::write(double t, Eigen::VectorXd& q) const {
+void ClosedFormReference::Rotation::write(double t, Eigen::VectorXd& q) {
   const OrientationLayout& layout = place.layout;
   Quaternion q_WB = Quaternion::Identity();
   if (orientation) {
@@ -61,7 +61,7 @@ void ClosedFormReference::Rotation::write(double t, Eigen::VectorXd& q) const {
   q.segment<3>(place.offset + layout.size()) = w;
 }
 
-void ClosedFormReference::state(int group, double t, Eigen::VectorXd& q) const {
+void ClosedFormReference::state(int group, double t, Eigen::VectorXd& q) {
   q.setConstant(sizes_[static_cast<std::size_t>(group)], std::numeric_limits<double>::quiet_NaN());
   for (std::size_t i = 0; i < closed_forms_.size(); ++i) {
     const World::ClosedForm& closed_form = closed_forms_[i];
@@ -70,7 +70,7 @@ void ClosedFormReference::state(int group, double t, Eigen::VectorXd& q) const {
     evaluators_[i](t, nullptr, q.data() + closed_form.offset);
     if (!q.segment(closed_form.offset, size).allFinite()) throw not_finite(closed_form.name, t, closed_form.where);
   }
-  for (const Rotation& rotation : rotations_)
+  for (Rotation& rotation : rotations_)
     if (rotation.group == group) rotation.write(t, q);
 }
 
@@ -87,7 +87,7 @@ void RecordedReference::motion(const MotionPiece& piece) {
   if (piece.group == 0) end_ = piece.to;
 }
 
-void RecordedReference::state(int group, double t, Eigen::VectorXd& q) const {
+void RecordedReference::state(int group, double t, Eigen::VectorXd& q) {
   const std::vector<Piece>& pieces = pieces_[static_cast<std::size_t>(group)];
   if (pieces.empty()) {
     q = starts_[static_cast<std::size_t>(group)];

@@ -13,6 +13,7 @@
 #include "pose_strip.hpp"
 #include "rotation_panels.hpp"
 #include "row_style.hpp"
+#include "trajet/portable.hpp"
 #include "trajet/text/did_you_mean.hpp"
 
 namespace trajet {
@@ -105,8 +106,8 @@ class CompareFigure {
   }
 
   bool has_result(const RowStyle& style) const {
-    return std::ranges::any_of(comparison_.rows,
-                               [&](const ComparisonRow& row) { return style.is_of(row) && row.succeeded(); });
+    return ranges::any_of(comparison_.rows,
+                          [&](const ComparisonRow& row) { return style.is_of(row) && row.succeeded(); });
   }
 
   /// In the list of methods.
@@ -128,7 +129,7 @@ class CompareFigure {
         errors.include(rows.back()[1]);
       }
       if (rows.empty()) continue;
-      std::ranges::sort(rows);
+      ranges::sort(rows);
       const std::string name = fmt::format("work{}_{}", is_first ? 0 : 1, plot.size());
       script_ += detail::data_block(name, rows);
       plot += fmt::format("{}${} with linespoints lw 1.8 lc '{}' pt {} ps 0.9 title {}", plot.empty() ? "" : ", ", name,

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "trajet/portable.hpp"
+
 namespace trajet::detail {
 
 namespace {
@@ -31,11 +33,11 @@ std::vector<std::string> compare_notes(const Comparison& comparison, const std::
   std::vector<std::string> texts;
   for (const ComparisonRow& row : comparison.rows) {
     if (!row.succeeded()) {
-      const auto style = std::ranges::find_if(styles, [&](const RowStyle& each) { return each.is_of(row); });
+      const auto style = ranges::find_if(styles, [&](const RowStyle& each) { return each.is_of(row); });
       const auto has_same = [&](const ComparisonRow& other) {
         return style->is_of(other) && !other.succeeded() && other.failure == row.failure;
       };
-      const auto first = std::ranges::find_if(comparison.rows, has_same);
+      const auto first = ranges::find_if(comparison.rows, has_same);
       if (&*first != &row) continue;  // a method fails of one cause with all its steps
       const bool is_alone = std::find_if(first + 1, comparison.rows.end(), has_same) == comparison.rows.end();
       texts.push_back((is_alone ? title(row) : style->name) + ": no result: " + row.failure);
@@ -62,8 +64,8 @@ std::string error_unit(const Comparison& comparison) {
     if (part != ".r" && part != ".v") return "SI units";
     units.emplace_back(part == ".r" ? "m" : "m/s");
   }
-  std::ranges::sort(units);
-  const auto repeated = std::ranges::unique(units);
+  ranges::sort(units);
+  const auto repeated = ranges::unique(units);
   units.erase(repeated.begin(), repeated.end());
   return fmt::format("{}", fmt::join(units, ", "));
 }

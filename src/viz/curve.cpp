@@ -5,6 +5,8 @@
 #include <limits>
 #include <utility>
 
+#include "trajet/portable.hpp"
+
 namespace trajet {
 
 namespace {
@@ -147,14 +149,14 @@ class Refinement {
   std::size_t coarse_point(double t) const {
     const bool is_backward = times_.back() < times_.front();
     const auto behind =
-        std::ranges::partition_point(times_, [&](double each) { return is_backward ? each >= t : each <= t; });
+        ranges::partition_point(times_, [&](double each) { return is_backward ? each >= t : each <= t; });
     return behind == times_.begin() ? 0 : static_cast<std::size_t>(behind - times_.begin()) - 1;
   }
 
   bool bends(const Interval& interval, double middle) const {
     const Segment<>& segment = *interval.segment;
     const std::size_t point = coarse_point(interval.to);
-    return std::ranges::any_of(drawn_, [&](const Drawn& each) {
+    return ranges::any_of(drawn_, [&](const Drawn& each) {
       for (int i = each.first; i < each.first + each.count; ++i) {
         const auto value = [&](double t) { return each.is_rate ? segment.derivative(i, t) : segment.value(i, t); };
         if (std::abs(0.5 * (value(interval.from) + value(interval.to)) - value(middle)) > kBend * each.extents[point])
@@ -169,7 +171,7 @@ class Refinement {
     const double duration = curve.times[to] - curve.times[from];
     if (duration == 0.0) return false;
     const std::size_t coarse = coarse_point(curve.times[to]);
-    return std::ranges::all_of(drawn_, [&](const Drawn& each) {
+    return ranges::all_of(drawn_, [&](const Drawn& each) {
       for (std::size_t point = from + 1; point < to; ++point)
         for (int i = 0; i < each.count; ++i) {
           const double part = (curve.times[point] - curve.times[from]) / duration;

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <numbers>
 
+#include "trajet/portable.hpp"
+
 namespace trajet::detail {
 
 namespace {
@@ -40,8 +42,8 @@ std::vector<Vector2> closed(std::vector<Vector2> corners) {
 
 /// The convex outline of points, counterclockwise: Andrew's monotone chain.
 std::vector<Vector2> outline(std::vector<Vector2> points) {
-  std::ranges::sort(points,
-                    [](const Vector2& a, const Vector2& b) { return a.x() != b.x() ? a.x() < b.x() : a.y() < b.y(); });
+  ranges::sort(points,
+               [](const Vector2& a, const Vector2& b) { return a.x() != b.x() ? a.x() < b.x() : a.y() < b.y(); });
   std::vector<Vector2> hull;
   const auto add_chain = [&](auto begin, auto end) {
     const std::size_t first = hull.size();
@@ -124,7 +126,7 @@ void draw_solid(const Look& look, const Pose& pose, const Camera& camera, Color 
     each.polygon.fill = is_dark ? mix(color, kBlack, 0.45) : lit(color, look.has_dark_pentagons ? 1.0 : light);
     seen.push_back(std::move(each));
   }
-  std::ranges::stable_sort(seen, {}, &Seen::nearness);
+  ranges::stable_sort(seen, {}, &Seen::nearness);
   for (Seen& each : seen) {
     drawing.lines.push_back(closed(each.polygon.corners));
     drawing.polygons.push_back(std::move(each.polygon));
@@ -218,7 +220,7 @@ Drawing draw_faces(const std::vector<Face>& faces, const Camera& camera, Color c
     drawing.nearness += nearness / static_cast<double>(faces.size());
     sorted.emplace_back(nearness, std::move(polygon));
   }
-  std::ranges::stable_sort(sorted, {}, [](const auto& each) { return each.first; });
+  ranges::stable_sort(sorted, {}, [](const auto& each) { return each.first; });
   for (auto& [nearness, polygon] : sorted) {
     drawing.lines.push_back(closed(polygon.corners));
     drawing.polygons.push_back(std::move(polygon));

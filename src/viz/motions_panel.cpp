@@ -11,6 +11,8 @@
 #include "shown_range.hpp"
 #include "space_panel.hpp"
 
+#include "trajet/portable.hpp"
+
 namespace trajet::detail {
 
 namespace {
@@ -53,9 +55,9 @@ void MotionsPanel::choose_rows() {
     rows_ = std::move(rows);
     return;
   }
-  std::ranges::stable_sort(rows, [this](std::size_t a, std::size_t b) { return error(a) > error(b); });
+  ranges::stable_sort(rows, [this](std::size_t a, std::size_t b) { return error(a) > error(b); });
   for (const std::size_t row : rows)
-    if (rows_.size() < kMostMotions && std::ranges::none_of(rows_, [&](std::size_t other) {
+    if (rows_.size() < kMostMotions && ranges::none_of(rows_, [&](std::size_t other) {
           return &style(comparison_.rows[other]) == &style(comparison_.rows[row]);
         }))
       rows_.push_back(row);
@@ -102,7 +104,7 @@ void MotionsPanel::choose_components() {
 }
 
 const RowStyle& MotionsPanel::style(const ComparisonRow& row) const {
-  return *std::ranges::find_if(styles_, [&](const RowStyle& style) { return style.is_of(row); });
+  return *ranges::find_if(styles_, [&](const RowStyle& style) { return style.is_of(row); });
 }
 
 std::string MotionsPanel::title(const ComparisonRow& row) const {
@@ -239,12 +241,12 @@ std::string MotionsPanel::space_script(const Frame& frame, const FigureSize& siz
   const Ranges kept = shown_ranges(ranges_of(reference), extents,
                                    reference.isEmpty() ? 0.0 : kLeastExtent * reference.sizes().maxCoeff());
   SpacePanel panel;
-  if (std::ranges::none_of(kept, &Range::is_empty))
+  if (ranges::none_of(kept, &Range::is_empty))
     panel.show({Vector3(kept[0].low, kept[1].low, kept[2].low), Vector3(kept[0].high, kept[1].high, kept[2].high)});
   for (std::size_t b = 0; b < world_.bodies.size(); ++b) {
     const World::Body& body = world_.bodies[b];
     const Look shape = look(body);
-    const bool is_solid = std::ranges::find(solids_, b) != solids_.end();
+    const bool is_solid = ranges::find(solids_, b) != solids_.end();
     std::vector<Vector3> points;
     for (const auto& state : reference_states(body.group).values)
       points.push_back(position(state, body.slice().position_index()));

@@ -6,6 +6,8 @@
 
 #include "obstacle_faces.hpp"
 
+#include "trajet/portable.hpp"
+
 namespace trajet::detail {
 
 namespace {
@@ -47,7 +49,7 @@ PathPanel::PathPanel(const RunResult& result, const MotionRecord& record, const 
     if (box.sizes()[i] > kRounding * std::max(box.min().cwiseAbs().maxCoeff(), box.max().cwiseAbs().maxCoeff()))
       kept_.push_back(i);
   is_in_space_ = kept_.size() == 3 ||
-                 std::ranges::any_of(world_.bodies, [&](const World::Body& body) { return is_turning_solid(body); });
+                 ranges::any_of(world_.bodies, [&](const World::Body& body) { return is_turning_solid(body); });
 }
 
 std::vector<Vector3> PathPanel::path(const World::Body& body) const {
@@ -84,7 +86,7 @@ bool PathPanel::is_turning_solid(const World::Body& body) const { return body.ro
 bool PathPanel::stays(const World::Body& body) const {
   const std::vector<Vector3> points = path(body);
   const double rounding = kRounding * (points.front().norm() + look(body).radius());
-  return std::ranges::all_of(points, [&](const Vector3& point) { return (point - points.front()).norm() <= rounding; });
+  return ranges::all_of(points, [&](const Vector3& point) { return (point - points.front()).norm() <= rounding; });
 }
 
 double PathPanel::aspect() const { return is_in_space_ ? space_panel().aspect() : 1.0; }

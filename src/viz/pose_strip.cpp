@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "trajet/portable.hpp"
+
 namespace trajet::detail {
 
 namespace {
@@ -37,7 +39,7 @@ std::vector<Pose> every_second(const std::vector<Pose>& poses) {
 }
 
 bool have_one_time(const std::vector<Pose>& a, const std::vector<Pose>& b) {
-  return std::ranges::equal(a, b, {}, &Pose::time, &Pose::time);
+  return ranges::equal(a, b, {}, &Pose::time, &Pose::time);
 }
 
 }  // namespace

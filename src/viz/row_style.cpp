@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <set>
 
+#include "trajet/portable.hpp"
+
 namespace trajet::detail {
 
 std::vector<RowStyle> row_styles(const Comparison& comparison) {
@@ -20,7 +22,7 @@ std::vector<RowStyle> row_styles(const Comparison& comparison) {
   std::size_t others = 0;
   bool has_blue = false;
   for (const ComparisonRow& row : comparison.rows) {
-    if (std::ranges::any_of(styles, [&](const RowStyle& style) { return style.is_of(row); })) continue;
+    if (ranges::any_of(styles, [&](const RowStyle& style) { return style.is_of(row); })) continue;
     RowStyle style{row.method, 0, 0, row.method, row.orientation};
     if (has_ways) style.name = methods.size() > 1 ? row.method + ", " + row.orientation : row.orientation;
     if (has_ways && row.orientation == "exact") {

@@ -10,6 +10,7 @@
 #include "path_panel.hpp"
 #include "plot_panel.hpp"
 #include "pose_strip.hpp"
+#include "trajet/portable.hpp"
 #include "trajet/viz/curve.hpp"
 
 namespace trajet {
@@ -107,12 +108,12 @@ class RunFigure {
   RunFigure(const RunResult& result, const MotionRecord& record)
       : result_(result), world_(record.world()), curves_(make_curves(record)), paths_(result, record, curves_) {
     // a run that ends at its start has nothing to show against time
-    const bool moves = std::ranges::any_of(curves_, [](const Curve& curve) { return !curve.times.empty(); });
+    const bool moves = ranges::any_of(curves_, [](const Curve& curve) { return !curve.times.empty(); });
     if (moves || paths_.is_empty()) body_count_ = std::min(world_.bodies.size(), kMostBodies);
     for (std::size_t b = 0; b < body_count_; ++b) {
       const Curve& curve = curve_of(world_.bodies[b]);
       Plotted plotted{b, quantities_of(world_.bodies[b], curve)};
-      const bool is_constant = std::ranges::all_of(
+      const bool is_constant = ranges::all_of(
           plotted.quantities, [&](const Quantity& quantity) { return constant_value(curve, quantity).has_value(); });
       if (is_constant && moves && !paths_.is_empty())
         notes_.push_back(constants(plotted));
@@ -292,7 +293,7 @@ class RunFigure {
     const Curve& curve = curve_of(body);
     const std::vector<Quantity>& quantities = plotted.quantities;
     const std::array<bool, 3> moves = moving_coordinates(plotted);
-    const bool is_alone = std::ranges::count(moves, true) == 1;
+    const bool is_alone = ranges::count(moves, true) == 1;
 
     for (std::size_t q = 0; q < quantities.size(); ++q) {
       const Quantity& quantity = quantities[q];

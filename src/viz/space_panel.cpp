@@ -11,6 +11,8 @@
 #include "polyline.hpp"
 #include "space_axes.hpp"
 
+#include "trajet/portable.hpp"
+
 namespace trajet::detail {
 
 namespace {
@@ -142,7 +144,7 @@ std::string SpacePanel::script(const Frame& frame, const FigureSize& size) const
     if (is_shown && radius >= kSmallestBody)
       drawings.push_back(shifted(draw_body(body.look, body.pose, view.camera, body.color, radius < kSmallestDetail)));
   }
-  std::ranges::stable_sort(drawings, {}, &Drawing::nearness);
+  ranges::stable_sort(drawings, {}, &Drawing::nearness);
   for (std::size_t i = 0; i < drawings.size(); ++i) add(plot_elements(drawings[i], fmt::format("solid{}_", i)));
   add_lines("axes", axes.axes, 0x404040, 1.2);
   add_paths(paths_, "path", false);

@@ -68,6 +68,12 @@ class IncludeDirections(Tree):
         self.write("src/sim/x.cpp", "#include <fmt/format.h>\n#include <udunits2.h>\n#include <CLI/CLI.hpp>\n")
         self.assertEqual(len(include_directions.violations(self.root)[0]), 3)
 
+    def test_doors(self):
+        self.write("src/law/x.cpp", "auto i = std::ranges::find(names, name);\nlong double x;\nstd::from_chars(a, b, y);\n")
+        self.assertEqual(len(include_directions.violations(self.root)[0]), 3)
+        self.write("src/law/x.cpp", "// long double\n")
+        self.assertFalse(include_directions.violations(self.root)[0])
+
     def test_unknown_layer(self):
         self.write("src/misc/x.cpp", "")
         self.assertTrue(include_directions.violations(self.root)[0])

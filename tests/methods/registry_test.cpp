@@ -24,11 +24,11 @@ class ProblemSystem final : public System {
   using State = typename Problem::State;
 
   int dimension() const override { return Problem::kDimension; }
-  void rate(double t, const double* q, double* dq) const override {
+  void rate(double t, const double* q, double* dq) override {
     Eigen::Map<State> rate(dq);
     Problem()(t, Eigen::Map<const State>(q), rate);
   }
-  void jacobian(double t, const double* q, double* dg_dq, double* dg_dt) const override {
+  void jacobian(double t, const double* q, double* dg_dq, double* dg_dt) override {
     Eigen::Matrix<double, Problem::kDimension, Problem::kDimension> derivatives;
     State time_derivative;
     law_.jacobian(t, State(Eigen::Map<const State>(q)), derivatives, time_derivative);

@@ -6,6 +6,7 @@
 
 #include "trajet/math/bernstein.hpp"
 #include "trajet/math/interval.hpp"
+#include "trajet/portable.hpp"
 
 namespace trajet {
 
@@ -31,7 +32,7 @@ inline IntervalJet enclose_polynomial(std::span<const double> coefficients, doub
   if (form.is_nearly_straight()) {
     // differences of rounded coefficients over a short time say little of the derivatives
     std::array<double, kMaxPolynomialDegree + 1> derivative;
-    std::ranges::copy(coefficients, derivative.begin());
+    ranges::copy(coefficients, derivative.begin());
     std::span<double> d(derivative.data(), coefficients.size());
     for (const int order : {1, 2}) {
       d = detail::differentiate(d);

@@ -5,11 +5,12 @@
 
 #include "trajet/geom/distance.hpp"
 #include "trajet/geom/shapes.hpp"
+#include "trajet/portable.hpp"
 
 namespace trajet {
 
 /// The point of a shape's surface that is nearest to p; of thin shapes, the nearest point. In the precision of p: T is
-/// double or long double.
+/// double or Extended.
 
 template <class T>
 Vector3T<T> closest_point(const Plane& plane, const Vector3T<T>& p) {

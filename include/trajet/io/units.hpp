@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "trajet/law/dimension.hpp"
+#include "trajet/portable.hpp"
 
 namespace trajet {
 
@@ -14,7 +15,7 @@ struct Unit {
   double denominator = 1.0;
   Dimension dimension;
   /// Numerator / denominator in extended precision.
-  long double exact_factor = static_cast<long double>(numerator) / static_cast<long double>(denominator);
+  Extended exact_factor = static_cast<Extended>(numerator) / static_cast<Extended>(denominator);
 };
 
 /// The unit that `text` names: `m/s`, `km/h`, `m s^-2`, `J/(kg K)`, `deg`, `rpm`, `grain`.
@@ -31,7 +32,7 @@ Unit parse_unit(std::string_view text);
 /// A quantity string in its two parts.
 struct QuantityText {
   double number = 0.0;
-  long double exact_number = 0.0L;  ///< in extended precision
+  Extended exact_number = 0.0L;  ///< in extended precision
   std::string_view number_text{};
   std::string_view unit{};
 };

@@ -7,6 +7,7 @@
 #include "trajet/law/program.hpp"
 #include "trajet/math/branch.hpp"
 #include "trajet/math/polynomial.hpp"
+#include "trajet/portable.hpp"
 
 namespace trajet {
 
@@ -20,7 +21,7 @@ namespace trajet {
 /// function that decides is zero at the start, the branch is the one behind the start in the direction of the search
 /// before.
 ///
-/// `T`, double or long double, is the type of the coefficients.
+/// `T`, double or Extended, is the type of the coefficients.
 template <class T>
 class ProgramExpansionT {
  public:
@@ -113,7 +114,7 @@ class ProgramExpansionT {
 };
 
 extern template class ProgramExpansionT<double>;
-extern template class ProgramExpansionT<long double>;
+extern template class ProgramExpansionT<Extended>;
 using ProgramExpansion = ProgramExpansionT<double>;
 
 }  // namespace trajet

@@ -8,6 +8,7 @@
 
 #include "trajet/math/number.hpp"
 #include "trajet/math/number_traits.hpp"
+#include "trajet/portable.hpp"
 
 namespace trajet {
 
@@ -39,7 +40,7 @@ class Dependence {
   friend Dependence operator+(const Dependence& a, const Dependence& b) {
     Dependence both;
     both.inputs_.reserve(a.inputs_.size() + b.inputs_.size());
-    std::ranges::set_union(a.inputs_, b.inputs_, std::back_inserter(both.inputs_));
+    ranges::set_union(a.inputs_, b.inputs_, std::back_inserter(both.inputs_));
     return both;
   }
   friend Dependence operator-(const Dependence& a, const Dependence& b) { return a + b; }

@@ -3,10 +3,12 @@
 #include <cmath>
 #include <type_traits>
 
+#include "trajet/portable.hpp"
+
 namespace trajet {
 
 /// A constant in double precision, and what rounding to it has taken off: the two together are the constant in
-/// extended precision. All number types but `long double` read the value alone.
+/// extended precision. All number types but `Extended` read the value alone.
 struct ExtendedConstant {
   double value = 0.0;
   double remainder = 0.0;
@@ -15,16 +17,16 @@ struct ExtendedConstant {
   ExtendedConstant(double number) : value(number) {}  // NOLINT(google-explicit-constructor): exact
   /// `number` is the value; the remainder is what `exact` has more, where both are finite. A value of 0 has none, so
   /// that what is zero is so in every precision.
-  ExtendedConstant(double number, long double exact) : value(number) {
-    const long double rest = exact - static_cast<long double>(number);
+  ExtendedConstant(double number, Extended exact) : value(number) {
+    const Extended rest = exact - static_cast<Extended>(number);
     if (number != 0.0 && std::isfinite(rest)) remainder = static_cast<double>(rest);
   }
 
   /// The constant as a number of type T.
   template <class T>
   T as() const {
-    if constexpr (std::is_same_v<T, long double>) {
-      return static_cast<long double>(value) + static_cast<long double>(remainder);
+    if constexpr (std::is_same_v<T, Extended>) {
+      return static_cast<Extended>(value) + static_cast<Extended>(remainder);
     } else {
       return T(value);
     }

@@ -4,6 +4,7 @@
 #include <type_traits>
 
 #include "trajet/math/force_inline.hpp"
+#include "trajet/portable.hpp"
 
 namespace trajet {
 
@@ -30,14 +31,14 @@ TRAJET_INLINE double max(double a, double b) { return a < b ? b : a; }
 TRAJET_INLINE double norm3(double x, double y, double z) { return std::sqrt(x * x + y * y + z * z); }
 
 // The same of extended precision, for constants and coefficients of power series.
-inline bool less(long double a, long double b) { return a < b; }
-inline bool less_equal(long double a, long double b) { return a <= b; }
-inline bool equal(long double a, long double b) { return a == b; }
-inline long double where(bool condition, long double a, long double b) { return condition ? a : b; }
-inline long double min(long double a, long double b) { return b < a ? b : a; }
-inline long double max(long double a, long double b) { return a < b ? b : a; }
-inline double sign(long double x) { return x > 0.0L ? 1.0 : x < 0.0L ? -1.0 : static_cast<double>(x); }
-inline long double norm3(long double x, long double y, long double z) { return std::sqrt(x * x + y * y + z * z); }
+inline bool less(Extended a, Extended b) { return a < b; }
+inline bool less_equal(Extended a, Extended b) { return a <= b; }
+inline bool equal(Extended a, Extended b) { return a == b; }
+inline Extended where(bool condition, Extended a, Extended b) { return condition ? a : b; }
+inline Extended min(Extended a, Extended b) { return b < a ? b : a; }
+inline Extended max(Extended a, Extended b) { return a < b ? b : a; }
+inline double sign(Extended x) { return x > 0.0L ? 1.0 : x < 0.0L ? -1.0 : static_cast<double>(x); }
+inline Extended norm3(Extended x, Extended y, Extended z) { return std::sqrt(x * x + y * y + z * z); }
 
 /// The angle of the point (x, y), from -pi to pi, by a y of which the side of zero is known better than by its own
 /// digits.
@@ -51,6 +52,6 @@ T angle_on_side(T y, T x, double side) {
 
 /// The plain number that constant factors of a number type have: none may be coarser than the type.
 template <class T>
-using Factor = std::conditional_t<std::is_same_v<T, long double>, long double, double>;
+using Factor = std::conditional_t<std::is_same_v<T, Extended>, Extended, double>;
 
 }  // namespace trajet

@@ -22,9 +22,9 @@ namespace detail {
 class CvodeProblem {
  public:
   virtual ~CvodeProblem() = default;
-  virtual void rate(double t, const double* q, double* dq) const = 0;
+  virtual void rate(double t, const double* q, double* dq) = 0;
   /// dg_dq(i, j) = d g_i / d q_j  // (dimension x dimension), column-major
-  virtual void jacobian(double t, const double* q, double* dg_dq) const = 0;
+  virtual void jacobian(double t, const double* q, double* dg_dq) = 0;
 };
 
 /// A CVODE solver at work. Defined where SUNDIALS is known.
@@ -64,12 +64,12 @@ class RateProblem final : public CvodeProblem {
   RateProblem(Rate rate, int dimension)
       : rate_(std::move(rate)), q_(dimension), g_(dimension), jacobian_(dimension, dimension) {}
 
-  void rate(double t, const double* q, double* dq) const override {
+  void rate(double t, const double* q, double* dq) override {
     q_ = Eigen::Map<const State>(q, q_.size());
     rate_(t, q_, g_);
     Eigen::Map<State>(dq, g_.size()) = g_;
   }
-  void jacobian(double t, const double* q, double* dg_dq) const override {
+  void jacobian(double t, const double* q, double* dg_dq) override {
     q_ = Eigen::Map<const State>(q, q_.size());
     rate_.jacobian(t, q_, jacobian_, g_);
     Eigen::Map<Jacobian>(dg_dq, jacobian_.rows(), jacobian_.cols()) = jacobian_;
@@ -80,8 +80,8 @@ class RateProblem final : public CvodeProblem {
   using Jacobian = Eigen::Matrix<double, Dim, Dim>;
 
   Rate rate_;
-  mutable State q_, g_;  // scratch
-  mutable Jacobian jacobian_;
+  State q_, g_;
+  Jacobian jacobian_;
 };
 
 }  // namespace detail

@@ -9,13 +9,14 @@
 #include "trajet/math/branch.hpp"
 #include "trajet/math/polynomial_degree.hpp"
 #include "trajet/math/replay_functions.hpp"
+#include "trajet/portable.hpp"
 
 namespace trajet {
 
 /// Taylor expansion of the solutions of dq/dt = law(t, q), a law that is a C++ callable generic in its number type.
 ///
 /// `law(t, q, dq)` gets a scalar t and Eigen vectors q and dq, of double or of Replay numbers. It may branch on
-/// comparisons; what it computes must depend on nothing else that changes. `T`, double or long double, is the type of
+/// comparisons; what it computes must depend on nothing else that changes. `T`, double or Extended, is the type of
 /// the coefficients.
 template <class Law, int Dim, class T = double>
 class LawExpansion {

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "trajet/ode/structure.hpp"
+#include "trajet/portable.hpp"
 
 namespace trajet::detail {
 
@@ -34,7 +35,7 @@ class LevelledRate {
   /// evaluation of the law. Returns how many there were.
   long evaluate(const std::vector<int>& level, double t, const State& q, State& dq) {
     const auto is_copy = [this](int i) { return structure_[i].copy_of.has_value(); };
-    const bool needs_law = !std::ranges::all_of(level, is_copy);
+    const bool needs_law = !ranges::all_of(level, is_copy);
     if (needs_law) rate_(t, q, scratch_);
     for (const int i : level) dq[i] = is_copy(i) ? q[*structure_[i].copy_of] : scratch_[i];
     return needs_law ? 1 : 0;

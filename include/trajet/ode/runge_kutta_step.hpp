@@ -3,7 +3,6 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -15,6 +14,7 @@
 #include "trajet/ode/step_control.hpp"
 #include "trajet/ode/step_state.hpp"
 #include "trajet/ode/tableau.hpp"
+#include "trajet/portable.hpp"
 
 namespace trajet::detail {
 
@@ -195,7 +195,7 @@ class RungeKuttaStep {
       f(b, x);
       largest = std::max(largest, Vector::largest_magnitude_bits(x));
     });
-    return std::bit_cast<double>(largest);
+    return bit_cast<double>(largest);
   }
 
   template <class F>

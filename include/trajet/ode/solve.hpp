@@ -9,6 +9,7 @@
 #include "trajet/ode/tableau_dop853.hpp"
 #include "trajet/ode/taylor.hpp"
 #include "trajet/ode/trajectory.hpp"
+#include "trajet/portable.hpp"
 
 namespace trajet {
 
@@ -39,7 +40,7 @@ struct TaylorMethod {
   }
 };
 using Taylor = TaylorMethod<double>;
-using TaylorExtended = TaylorMethod<long double>;
+using TaylorExtended = TaylorMethod<Extended>;
 
 /// What solve() needs beside the problem.
 struct SolveOptions : StepOptions {

@@ -1,10 +1,11 @@
 #pragma once
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <limits>
+
+#include "trajet/portable.hpp"
 
 namespace trajet {
 namespace detail {
@@ -14,9 +15,9 @@ namespace detail {
 /// A step size needs no more: an exact logarithm and exponential would cost a tenth of a step of a small system. And
 /// these few lines round alike on every machine, which the C library's pow does not promise.
 inline double rough_log2(double x) {
-  const auto bits = std::bit_cast<std::uint64_t>(x);
+  const auto bits = bit_cast<std::uint64_t>(x);
   const auto exponent = static_cast<std::int64_t>(bits >> 52) - 1023;
-  const double f = std::bit_cast<double>((bits & 0x000f'ffff'ffff'ffffULL) | 0x3ff0'0000'0000'0000ULL) - 1.0;
+  const double f = bit_cast<double>((bits & 0x000f'ffff'ffff'ffffULL) | 0x3ff0'0000'0000'0000ULL) - 1.0;
   // log2(1 + f) = f + f (1 - f) r(f), r linear through the Chebyshev nodes of [0, 1]: error 2.5e-3.
   return static_cast<double>(exponent) + (f + f * (1.0 - f) * (0.42894708 - 0.15819143 * f));
 }
@@ -25,8 +26,7 @@ inline double rough_log2(double x) {
 inline double rough_exp2(double y) {
   const double floor_y = std::floor(y);
   const double f = y - floor_y;
-  const double scale =
-      std::bit_cast<double>(static_cast<std::uint64_t>(static_cast<std::int64_t>(floor_y) + 1023) << 52);
+  const double scale = bit_cast<double>(static_cast<std::uint64_t>(static_cast<std::int64_t>(floor_y) + 1023) << 52);
   // 2^f = 1 + f + f (1 - f) r(f), as above: error 3.1e-4.
   return scale * (1.0 + f - f * (1.0 - f) * (0.30525418 + 0.07920415 * f));
 }

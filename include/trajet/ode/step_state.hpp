@@ -2,7 +2,6 @@
 
 #include <Eigen/Core>
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -12,6 +11,7 @@
 #include <utility>
 
 #include "trajet/math/force_inline.hpp"
+#include "trajet/portable.hpp"
 
 namespace trajet::detail {
 
@@ -95,9 +95,7 @@ class PlainState {
   TRAJET_INLINE static void write(double component, double* components, Eigen::Index i) { components[i] = component; }
 
   TRAJET_INLINE static void take_magnitude(double& x) { x = std::abs(x); }
-  TRAJET_INLINE static std::int64_t largest_magnitude_bits(double x) {
-    return std::bit_cast<std::int64_t>(std::abs(x));
-  }
+  TRAJET_INLINE static std::int64_t largest_magnitude_bits(double x) { return bit_cast<std::int64_t>(std::abs(x)); }
 
  private:
   State components_;

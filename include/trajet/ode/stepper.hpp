@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "trajet/ode/segment.hpp"
+#include "trajet/portable.hpp"
 
 namespace trajet {
 
@@ -67,7 +68,7 @@ concept Stepper = requires(S& stepper, const S& fixed, double t, const typename 
 class AnyStepper {
  public:
   using State = Eigen::VectorXd;
-  using ExtendedState = Eigen::VectorX<long double>;
+  using ExtendedState = Eigen::VectorX<Extended>;
   static constexpr int kDimension = Eigen::Dynamic;
 
   virtual ~AnyStepper() = default;
@@ -85,9 +86,9 @@ class AnyStepper {
   virtual bool is_extended() const { return false; }
   /// `start` with a state in extended precision, where it is carried so.
   virtual void start_extended(double t, const ExtendedState& q) { start(t, q.cast<double>()); }
-  /// The state `tau` (s) behind the start of the last step, in the precision in which it is carried; none where the step
-  /// is known in double precision only.
-  virtual std::optional<ExtendedState> extended_state(long double /*tau*/) const { return std::nullopt; }
+  /// The state `tau` (s) behind the start of the last step, in the precision in which it is carried; none where the
+  /// step is known in double precision only.
+  virtual std::optional<ExtendedState> extended_state(Extended /*tau*/) const { return std::nullopt; }
   /// What a user should know of the work so far: sentences, each once.
   virtual std::vector<std::string> warnings() const = 0;
 };

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 
 #include "trajet/ode/structure.hpp"
+#include "trajet/portable.hpp"
 
 namespace trajet {
 
@@ -19,18 +20,18 @@ class System {
   virtual int dimension() const = 0;
 
   /// dq = g(q, t). `q` and `dq` hold `dimension()` numbers and do not overlap.
-  virtual void rate(double t, const double* q, double* dq) const = 0;
+  virtual void rate(double t, const double* q, double* dq) = 0;
 
   /// The exact derivatives of g at (t, q): dg_dq(i, j) = d g_i / d q_j, (dimension x dimension), column-major, and
   /// dg_dt(i) = d g_i / dt. What has no derivative gives one of its one-sided derivatives or zero.
-  virtual void jacobian(double t, const double* q, double* dg_dq, double* dg_dt) const = 0;
+  virtual void jacobian(double t, const double* q, double* dg_dq, double* dg_dt) = 0;
 
   /// The Taylor coefficients of the solution through (t, q) up to (time)^order.
   ///
   /// `coefficients` is (dimension x order+1), column-major: column k belongs to (time - t)^k; column 0 is q.
   virtual void expand(double t, const double* q, int order, double* coefficients) = 0;
   /// The same in extended precision.
-  virtual void expand(double t, const long double* q, int order, long double* coefficients) = 0;
+  virtual void expand(double t, const Extended* q, int order, Extended* coefficients) = 0;
 
   /// Whether the last expansion, in either precision, stays the solution's up to `duration` (s, either sign) later: the
   /// time until the law takes another branch (a comparison, abs, sign, min, max, floor, the next interval of a table),

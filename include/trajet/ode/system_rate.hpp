@@ -9,7 +9,7 @@ namespace trajet {
 /// Lets a run-time System be the rate of a stepper of run-time dimension. The System must outlive it.
 class SystemRate {
  public:
-  explicit SystemRate(const System& system) : system_(&system) {}
+  explicit SystemRate(System& system) : system_(&system) {}
 
   void operator()(double t, const Eigen::VectorXd& q, Eigen::VectorXd& dq) const {
     system_->rate(t, q.data(), dq.data());
@@ -19,7 +19,7 @@ class SystemRate {
   }
 
  private:
-  const System* system_;
+  System* system_;
 };
 
 }  // namespace trajet

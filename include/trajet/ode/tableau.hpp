@@ -3,6 +3,8 @@
 #include <array>
 #include <cstdint>
 
+#include "trajet/portable.hpp"
+
 namespace trajet {
 
 /// An exact fraction. Tableaus are made of these, so that tests can check them without rounding.
@@ -22,10 +24,10 @@ struct Fraction {
 
 /// A coefficient that is no fraction, by the digits of its source.
 struct Decimal {
-  long double digits = 0.0L;
+  Extended digits = 0.0L;
 
   constexpr Decimal() = default;
-  constexpr Decimal(long double printed) : digits(printed) {}
+  constexpr Decimal(Extended printed) : digits(printed) {}
 
   constexpr double value() const { return static_cast<double>(digits); }
   bool operator==(const Decimal&) const = default;

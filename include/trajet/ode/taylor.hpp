@@ -17,6 +17,7 @@
 #include "trajet/ode/step_control.hpp"
 #include "trajet/ode/stepper.hpp"
 #include "trajet/ode/system.hpp"
+#include "trajet/portable.hpp"
 
 namespace trajet {
 
@@ -295,7 +296,7 @@ class TaylorStepper {
   StepStatistics statistics_;
 };
 
-/// The expansion of a run-time System, in coefficients of type T, double or long double.
+/// The expansion of a run-time System, in coefficients of type T, double or Extended.
 template <class T = double>
 class SystemExpansion {
  public:

@@ -7,6 +7,7 @@
 #include "trajet/law/program_expansion.hpp"
 #include "trajet/law/program_jacobian.hpp"
 #include "trajet/ode/system.hpp"
+#include "trajet/portable.hpp"
 
 namespace trajet {
 
@@ -18,8 +19,8 @@ class ProgramSystem : public System {
   ProgramSystem& operator=(const ProgramSystem&) = delete;
 
   int dimension() const override { return expansion_.dimension(); }
-  void rate(double t, const double* q, double* dq) const override { evaluator_(t, q, dq); }
-  void jacobian(double t, const double* q, double* dg_dq, double* dg_dt) const override {
+  void rate(double t, const double* q, double* dq) override { evaluator_(t, q, dq); }
+  void jacobian(double t, const double* q, double* dg_dq, double* dg_dt) override {
     if (!jacobian_) jacobian_.emplace(expansion_.program());
     (*jacobian_)(t, q, dg_dq, dg_dt);
   }
@@ -27,7 +28,7 @@ class ProgramSystem : public System {
     expansion_.expand(t, q, order, coefficients);
     extended_was_last_ = false;
   }
-  void expand(double t, const long double* q, int order, long double* coefficients) override {
+  void expand(double t, const Extended* q, int order, Extended* coefficients) override {
     if (!extended_) extended_.emplace(expansion_.program());
     extended_->expand(t, q, order, coefficients);
     extended_was_last_ = true;
@@ -47,10 +48,10 @@ class ProgramSystem : public System {
 
  private:
   ProgramExpansion expansion_;
-  std::optional<ProgramExpansionT<long double>> extended_;  // made when first asked for
+  std::optional<ProgramExpansionT<Extended>> extended_;  // made when first asked for
   bool extended_was_last_ = false;
-  mutable Evaluator<double> evaluator_;              // its slots are scratch
-  mutable std::optional<ProgramJacobian> jacobian_;  // made when first asked for: most methods never do
+  Evaluator<double> evaluator_;
+  std::optional<ProgramJacobian> jacobian_;  // made when first asked for: most methods never do
 };
 
 }  // namespace trajet

@@ -10,6 +10,7 @@
 #include "trajet/geom/solid.hpp"
 #include "trajet/law/program.hpp"
 #include "trajet/ode/registry.hpp"
+#include "trajet/portable.hpp"
 #include "trajet/rigid/orientation.hpp"
 #include "trajet/scene/body_slice.hpp"
 #include "trajet/scene/named_value.hpp"
@@ -131,12 +132,12 @@ struct World {
   /// radius of 1/3 is none that doubles have.
   struct ExtendedNumbers {
     struct Sphere {
-      Vector3T<long double> center;
-      long double radius;
+      Vector3T<Extended> center;
+      Extended radius;
     };
-    std::vector<Eigen::VectorX<long double>> starts;  ///< of each group
-    std::vector<long double> radii;                   ///< of each body
-    std::map<int, Sphere> spheres;                    ///< of the obstacles that are spheres
+    std::vector<Eigen::VectorX<Extended>> starts;  ///< of each group
+    std::vector<Extended> radii;                   ///< of each body
+    std::map<int, Sphere> spheres;                 ///< of the obstacles that are spheres
   };
 
   std::string scene;  ///< file name

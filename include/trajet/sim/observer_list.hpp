@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "trajet/portable.hpp"
 #include "trajet/sim/run_observer.hpp"
 
 namespace trajet {
@@ -37,7 +38,7 @@ class ObserverList : public RunObserver {
       if (each->wishes().samples) each->sample(sample);
   }
   bool interrupted(double time) override {
-    return std::ranges::any_of(observers_, [time](RunObserver* each) { return each->interrupted(time); });
+    return ranges::any_of(observers_, [time](RunObserver* each) { return each->interrupted(time); });
   }
 
  private:

@@ -84,7 +84,7 @@ struct Comparison {
   std::optional<double> reference_step;  ///< s
   std::vector<std::string> components;   ///< what is compared: `ball.r`, `ball.v`, an extra state
   bool turns = false;                    ///< some body of the scene does: rows tell its RotationDeviation
-  std::shared_ptr<const Reference> reference;
+  std::shared_ptr<Reference> reference;
   double start_time = 0.0;
   double end_time = 0.0;  ///< asked for
   std::vector<NamedValue> parameters;

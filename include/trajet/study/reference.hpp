@@ -27,7 +27,7 @@ class Reference {
   virtual bool ends_at_jumps() const = 0;
   /// The state of a group at a time from the start to the end, into `q`; not-a-number in the components that it does
   /// not know.
-  virtual void state(int group, double t, Eigen::VectorXd& q) const = 0;
+  virtual void state(int group, double t, Eigen::VectorXd& q) = 0;
 };
 
 /// The scene's `[exact]` block.
@@ -40,23 +40,23 @@ class ClosedFormReference : public Reference {
   std::optional<double> end_time() const override { return std::nullopt; }
   bool ends_at_jumps() const override { return true; }
   /// Throws ReferenceError that points at the formula if its value is not finite.
-  void state(int group, double t, Eigen::VectorXd& q) const override;
+  void state(int group, double t, Eigen::VectorXd& q) override;
 
  private:
-  /// Of one body. The evaluators' slots are scratch.
+  /// Of one body.
   struct Rotation {
     int group;
     World::Rotation place;
     std::string body;
     World::ClosedRotation closed_form;
-    mutable std::optional<Evaluator<double>> orientation{}, angular_velocity{};
+    std::optional<Evaluator<double>> orientation{}, angular_velocity{};
 
-    void write(double t, Eigen::VectorXd& q) const;
+    void write(double t, Eigen::VectorXd& q);
   };
 
   std::vector<World::ClosedForm> closed_forms_;
   std::vector<Eigen::Index> sizes_;                    // of the groups' states
-  mutable std::vector<Evaluator<double>> evaluators_;  // one for each closed form; their slots are scratch
+  std::vector<Evaluator<double>> evaluators_;  // one for each closed form
   std::vector<Rotation> rotations_;
 };
 
@@ -70,7 +70,7 @@ class RecordedReference : public Reference, public RunObserver {
   std::optional<double> end_time() const override { return end_; }
   bool ends_at_jumps() const override { return false; }
   /// At a jump: the state behind it.
-  void state(int group, double t, Eigen::VectorXd& q) const override;
+  void state(int group, double t, Eigen::VectorXd& q) override;
 
  private:
   struct Piece {

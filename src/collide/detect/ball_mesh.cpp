@@ -8,6 +8,7 @@
 #include "trajet/collide/detect/contact_table.hpp"
 #include "trajet/geom/closest_point.hpp"
 #include "trajet/geom/triangle_surface.hpp"
+#include "trajet/portable.hpp"
 #include "triangle_distance.hpp"
 
 namespace trajet {
@@ -67,7 +68,7 @@ class MeshGap {
       near_.push_back(triangle);
       return true;
     });
-    std::ranges::sort(near_);
+    ranges::sort(near_);
     const double rounding = 3.0 * kUnitRoundoff * (position.lpNorm<1>() + radius_);
     FunctionSample least{{cap_, 0.0, 0.0}, rounding, std::max(3.0 * rounding, touch_tolerance_)};
     for (const int triangle : near_) {

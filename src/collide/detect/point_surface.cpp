@@ -8,6 +8,7 @@
 #include "plane_height.hpp"
 #include "step_end_search.hpp"
 #include "trajet/geom/closest_point.hpp"
+#include "trajet/portable.hpp"
 
 namespace trajet::detail {
 
@@ -53,7 +54,7 @@ class PointSurfaceSearch {
       search(middle, to);
       return;
     }
-    std::ranges::sort(near);
+    ranges::sort(near);
     for (const int triangle : near)
       if (searched_.insert(triangle).second) meet(triangle);
   }
