@@ -30,6 +30,7 @@ struct Crossing {
   Kind kind = Kind::segment_end;
   int index =
       0;  ///< of the event in World::events; else of the lasting contact that would pull or has come to its edge
+  double error_bound = 0.0;  ///< s
 };
 
 /// One group of a World on its way: its stepper, the Segment it is on, and the crossings of zero it looks out for.
@@ -96,6 +97,8 @@ class Course {
   void use_contacts();
   /// `instant`: at which the course goes on; null at the start.
   void begin(double t, const Eigen::VectorXd& q, const Instant* instant);
+  /// `is_held_anew`: the lasting contacts have changed.
+  void restart_watches(const Instant& instant, bool is_held_anew);
   /// Puts orientations right where a step has ended, on the Segment too.
   void put_orientations_right();
   /// Replaces the stepper's state by one that means the same.
