@@ -53,6 +53,7 @@ void EventWatch::restart(double t, const double* before, const double* q, const 
   const bool is_pending = is_now(next_);
   const bool is_own = std::exchange(is_taken_, false);
   has_landed_ = false;
+  has_turned_ = has_to_leave_ = false;
   if (value == value_before) {
     sign_ = static_cast<int>(sign(value));
     at_zero_ = 0.0;
@@ -84,6 +85,27 @@ void EventWatch::restart(double t, const double* before, const double* q, const 
   }
 }
 
+double EventWatch::rate_at(double t, const double* q, const double* rate) {
+  for (const int i : inputs_) {
+    IntervalJet& component = state_[static_cast<std::size_t>(i)];
+    component = IntervalJet(Interval(q[i]));
+    component[1] = Interval(rate[i]);
+  }
+  IntervalJet result;
+  enclosures_(IntervalJet::variable(Interval(t)), state_.data(), &result);
+  return median(result[1]);
+}
+
+void EventWatch::turn(double t, const double* before, const double* rate_before, const double* q, const double* rate) {
+  // a rate that small is what rounding leaves of one that was stopped
+  constexpr double kStopped = 1e-12;
+  const double came = rate_at(t, before, rate_before);
+  const double goes = rate_at(t, q, rate);
+  has_turned_ = sign_ == 0 && last_.found && came != 0.0 && goes / came <= kStopped;
+  has_to_leave_ = has_turned_;
+  if (has_turned_) sign_ = -last_.direction;
+}
+
 bool EventWatch::wanted(int direction) const {
   return direction_ == CrossingDirection::any || (direction_ == CrossingDirection::rising) == (direction > 0);
 }
@@ -94,8 +116,14 @@ void EventWatch::search(const Segment<>& segment, double from) {
   const Path<Eigen::Dynamic> path(segment, inputs_);
   const ComposedFunction function(path, Function{&enclosures_, &inputs_, &state_}, from - segment.t0(),
                                   segment.duration(), std::exchange(at_zero_, 0.0), true);
+  const FunctionSample begin = function.at(function.begin());
+  if (std::exchange(has_to_leave_, false) && last_.direction * begin.jet.curvature > 0.0 &&
+      begin.jet.rate * begin.jet.rate <= 2.0 * std::abs(begin.jet.curvature) * begin.tolerance) {
+    // what was turned back does not come as far as can be told from zero
+    next_ = {true, from, 2.0 * kUnitRoundoff * std::abs(from), last_.direction, false};
+    return;
+  }
   if (sign_ == 0) {
-    const FunctionSample begin = function.at(function.begin());
     if (std::abs(begin.jet.value) > begin.tolerance) sign_ = static_cast<int>(sign(begin.jet.value));
   }
   const bool has_landed = std::exchange(has_landed_, false);

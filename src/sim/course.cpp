@@ -123,7 +123,7 @@ void Course::restart_watches(const Instant& instant, bool is_held_anew) {
   const double t = instant.time();
   // of the jump, and of the state that the motion has at a rounded time
   constexpr double kRoundings = 8.0;
-  const double time = std::abs(t) + std::abs(segment_.duration());
+  const double time = std::abs(t) + std::abs(t - segment_.t0());
   Eigen::VectorXd rounding(instant.q.size());
   for (int i = 0; i < rounding.size(); ++i) {
     const double change = time * std::abs(segment_.derivative(i, t));
@@ -208,6 +208,11 @@ const EventWatch::Crossing& Course::event_crossing(int event) const {
 }
 
 void Course::take_event(int event) { watch(event).watch.take(); }
+
+void Course::turn_event(int event, const Instant& instant, const Eigen::VectorXd& rate_before) {
+  const double t = instant.time();
+  watch(event).watch.turn(t, instant.before().data(), rate_before.data(), instant.q.data(), rate(t, instant.q).data());
+}
 
 void Course::pass_event(int event) {
   EventWatch& passed = watch(event).watch;

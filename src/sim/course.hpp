@@ -59,6 +59,10 @@ class Course {
   const EventWatch::Crossing& event_crossing(int event) const;
   /// The event has happened and will change the state: it is not the next one any more.
   void take_event(int event);
+  /// The event has changed the state, which the course has taken: its rate was this before.
+  void turn_event(int event, const Instant& instant, const Eigen::VectorXd& rate_before);
+  /// Whether the event's own set has turned or stopped what it watches.
+  bool has_turned(int event) const { return const_cast<Course*>(this)->watch(event).watch.has_turned(); }
   /// Goes on from an event that changed nothing.
   void pass_event(int event);
 

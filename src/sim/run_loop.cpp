@@ -7,12 +7,17 @@
 #include "ties.hpp"
 #include "trajet/law/evaluate.hpp"
 #include "trajet/scene/describe_failure.hpp"
+#include "trajet/text/shortest_text.hpp"
 
 namespace trajet {
 namespace {
 
 /// So many events of one course at one instant are sets that call each other, not a motion.
 constexpr int kMaxEventsAtOnce = 1000;
+/// Roundings of time within which an event that its own set has turned back happens at once.
+constexpr double kSameTime = 8.0;
+/// Roundings of time within which all is over of events that come faster and faster.
+constexpr double kNearLimit = 256.0;
 
 std::string status_text(StepStatus status) {
   return status == StepStatus::not_finite ? "the law is not finite"
@@ -36,7 +41,8 @@ RunLoop::RunLoop(const World& world, RunObserver& observer)
       recorder_(world, courses_, observer),
       lasting_contacts_(world, courses_, encounters_, recorder_),
       last_impacts_(world.bodies.size()),
-      last_events_(world.groups.size()) {}
+      last_events_(world.groups.size()),
+      accumulations_(world.events.size()) {}
 
 RunLoop::Incident RunLoop::next(int index) const {
   const Course& course = *courses_[static_cast<std::size_t>(index)];
@@ -189,16 +195,38 @@ void RunLoop::handle_event(int index, double time) {
     case EventAction::set:
       break;
   }
+  if (const std::string reason = accumulates(index, crossing.index, time); !reason.empty()) return fail(time, reason);
+  set(index, crossing.index, time);
+}
+
+std::string RunLoop::accumulates(int index, int event, double time) {
+  Accumulation& times = accumulations_[static_cast<std::size_t>(event)];
+  times.happen(time);
+  const double rounding = kUnitRoundoff * std::max(std::abs(time), std::abs(time - world_.start));
+  const bool is_stopped = course(index).has_turned(event) && std::abs(times.interval()) <= kSameTime * rounding;
+  const std::optional<double> limit = is_stopped ? times.extrapolated_limit() : times.limit(kNearLimit * rounding);
+  if (!limit && !is_stopped) return {};
+  return "event '" + world_.events[static_cast<std::size_t>(event)].name +
+         "' happens faster and faster, infinitely often before t = " + shortest_text(limit.value_or(time)) +
+         " s: what its set turns back or stops, the law drives across zero again; the motion behind that time is not "
+         "followed";
+}
+
+void RunLoop::set(int index, int event_index, double time) {
+  Course& moving = course(index);
+  const World::Event& event = world_.events[static_cast<std::size_t>(event_index)];
   Instant instant(moving, time);
   Eigen::VectorXd values(static_cast<Eigen::Index>(event.targets.size()));
-  Evaluator<double> set(event.set);
-  set(time, instant.before().data(), values.data());
+  Evaluator<double> evaluate(event.set);
+  evaluate(time, instant.before().data(), values.data());
   for (std::size_t i = 0; i < event.targets.size(); ++i)
     instant.q[event.targets[i]] = values[static_cast<Eigen::Index>(i)];
-  instant.derivative = derivative_of_set(event, instant, moving.rate(time, instant.before()));
-  moving.take_event(crossing.index);
+  const Eigen::VectorXd rate = moving.rate(time, instant.before());
+  instant.derivative = derivative_of_set(event, instant, rate);
+  moving.take_event(event_index);
   lasting_contacts_.release_after_set(instant);
   go_on(index, instant);
+  moving.turn_event(event_index, instant, rate);
   for (const int body : moving.group().bodies) {
     const int offset = world_.bodies[static_cast<std::size_t>(body)].offset;
     const Vector3 from = instant.before().segment<3>(offset), to = instant.q.segment<3>(offset);

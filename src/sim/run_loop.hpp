@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "accumulation.hpp"
 #include "agenda.hpp"
 #include "encounters.hpp"
 #include "lasting_contacts.hpp"
@@ -46,6 +47,10 @@ class RunLoop {
 
   bool is_segment_end(int course, const Incident& incident) const;
   void handle_event(int course, double time);
+  /// Why the motion cannot be followed behind the event, if it happens faster and faster; else nothing.
+  std::string accumulates(int course, int event, double time);
+  /// The event's `set` changes the state.
+  void set(int course, int event, double time);
   void handle_contact(int course, const Pair& met);
   void handle_contact_end(int course);
   /// Whether a contact is the last one still, from which the body moves away by its law; then the motion goes on.
@@ -87,8 +92,9 @@ class RunLoop {
       return count;
     }
   };
-  std::vector<AtOneInstant> last_impacts_;  // of each body
-  std::vector<AtOneInstant> last_events_;   // of each course
+  std::vector<AtOneInstant> last_impacts_;   // of each body
+  std::vector<AtOneInstant> last_events_;    // of each course
+  std::vector<Accumulation> accumulations_;  // of each event that sets
   /// An event has asked for the end of the run.
   struct Stop {
     double time;         // s

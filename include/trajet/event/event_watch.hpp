@@ -37,6 +37,11 @@ class EventWatch {
   /// this time, within its error bound, that was not taken yet stays the next one, and a jump across zero becomes it;
   /// but what was taken last jumps by what it has done itself.
   void restart(double t, const double* before, const double* q, const double* rounding);
+  /// Behind the restart by what was taken last: how fast the state changed before and changes now. Where that turns the
+  /// program back or stops it, it is on the side that it came from, for however short a time, and may cross again.
+  void turn(double t, const double* before, const double* rate_before, const double* q, const double* rate);
+  /// Whether the last restart was such a turn.
+  bool has_turned() const { return has_turned_; }
   /// Finds the first crossing on the Segment behind `from`, which lies on it; remembered until the watch moves on.
   void search(const Segment<>& segment, double from);
   const Crossing& next() const { return next_; }
@@ -52,6 +57,9 @@ class EventWatch {
   bool wanted(int direction) const;
   /// What the program may be at a time and in a state that is off by `rounding` at most.
   Interval enclose(double t, const double* q, const double* rounding);
+
+  /// How fast the program changes, per s.
+  double rate_at(double t, const double* q, const double* rate);
 
   /// The program on enclosures of the inputs it reads.
   struct Function {
@@ -77,8 +85,10 @@ class EventWatch {
   int sign_ = 0;             // seen last, 0 unknown
   double at_zero_ = 0.0;     // values as small still belong to the zero on which the motion was restarted
   bool has_landed_ = false;  // by a jump, from the side of sign_
-  bool is_taken_ = false;    // the next restart is by the crossing taken last
-  Crossing last_;            // that was taken
+  bool has_turned_ = false;
+  bool has_to_leave_ = false;  // it was turned back, and was not searched since
+  bool is_taken_ = false;      // the next restart is by the crossing taken last
+  Crossing last_;              // that was taken
   Crossing next_;
 };
 
