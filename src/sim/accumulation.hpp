@@ -17,7 +17,8 @@ class Accumulation {
   void happen(double t);
   /// How long ago the event had happened before, s.
   double interval() const { return interval_; }
-  /// The time at which the events accumulate if their intervals go on shrinking as they do, s; none if they do not shrink.
+  /// The time at which the events accumulate if their intervals go on shrinking as they do, s; none if they do not
+  /// shrink.
   std::optional<double> extrapolated_limit() const;
   /// The same once all that are to come happen within `resolution` (s).
   std::optional<double> limit(double resolution) const;
