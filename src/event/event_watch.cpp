@@ -20,6 +20,9 @@ std::vector<int> read_components(const Program& program) {
   return components;
 }
 
+/// The sign of all of the numbers; 0 where they have several or are not known.
+int definite_sign(const Interval& values) { return values.lower() > 0.0 ? 1 : values.upper() < 0.0 ? -1 : 0; }
+
 }  // namespace
 
 EventWatch::EventWatch(Program when, CrossingDirection direction)
@@ -30,7 +33,16 @@ EventWatch::EventWatch(Program when, CrossingDirection direction)
       values_(*program_),
       enclosures_(*program_) {}
 
-void EventWatch::restart(double t, const double* before, const double* q) {
+Interval EventWatch::enclose(double t, const double* q, const double* rounding) {
+  const double t_rounding = 2.0 * kUnitRoundoff * std::abs(t);
+  for (const int i : inputs_)
+    state_[static_cast<std::size_t>(i)] = IntervalJet(Interval(q[i] - rounding[i], q[i] + rounding[i]));
+  IntervalJet result;
+  enclosures_(IntervalJet(Interval(t - t_rounding, t + t_rounding)), state_.data(), &result);
+  return result[0];
+}
+
+void EventWatch::restart(double t, const double* before, const double* q, const double* rounding) {
   double value_before = 0.0;
   double value = 0.0;
   values_(t, before, &value_before);
@@ -39,15 +51,59 @@ void EventWatch::restart(double t, const double* before, const double* q) {
     return crossing.found && std::abs(t - crossing.time) <= crossing.error_bound;
   };
   const bool is_pending = is_now(next_);
-  if ((is_pending || is_now(last_)) && value == value_before) {
-    // zero to rounding: where the motion goes from here is no second crossing
-    sign_ = 0;
-    at_zero_ = 2.0 * std::abs(value);
-  } else {
+  const bool is_own = std::exchange(is_taken_, false);
+  has_landed_ = false;
+  has_turned_ = has_to_leave_ = false;
+  if (value == value_before) {
     sign_ = static_cast<int>(sign(value));
     at_zero_ = 0.0;
+    if (!is_pending) next_ = {};
+    // zero to rounding: where the motion goes from here is no second crossing
+    if ((is_pending && !next_.is_jump) || (is_now(last_) && !last_.is_jump)) {
+      sign_ = 0;
+      at_zero_ = 2.0 * std::abs(value);
+    }
+    return;
   }
-  if (!is_pending) next_ = {};
+  const Interval values = enclose(t, q, rounding);
+  const int after = definite_sign(values);
+  const int side = is_pending ? -next_.direction : is_own ? 0 : definite_sign(enclose(t, before, rounding));
+  at_zero_ = after == 0 ? norm(values) : 0.0;
+  sign_ = after;
+  if (after != 0) last_ = {};
+  if (is_pending && (after != side || side == 0)) {
+    next_.is_jump = after != 0;
+    return;
+  }
+  next_ = {};
+  if (side == 0 || is_pending) return;
+  if (after == 0) {
+    sign_ = side;
+    has_landed_ = true;
+  } else if (after != side && wanted(after)) {
+    next_ = {true, t, 2.0 * kUnitRoundoff * std::abs(t), after, false, true};
+  }
+}
+
+double EventWatch::rate_at(double t, const double* q, const double* rate) {
+  for (const int i : inputs_) {
+    IntervalJet& component = state_[static_cast<std::size_t>(i)];
+    component = IntervalJet(Interval(q[i]));
+    component[1] = Interval(rate[i]);
+  }
+  IntervalJet result;
+  enclosures_(IntervalJet::variable(Interval(t)), state_.data(), &result);
+  return median(result[1]);
+}
+
+void EventWatch::turn(double t, const double* before, const double* rate_before, const double* q, const double* rate) {
+  // a rate that small is what rounding leaves of one that was stopped
+  constexpr double kStopped = 1e-12;
+  const double came = rate_at(t, before, rate_before);
+  const double goes = rate_at(t, q, rate);
+  has_turned_ = sign_ == 0 && last_.found && came != 0.0 && goes / came <= kStopped;
+  has_to_leave_ = has_turned_;
+  if (has_turned_) sign_ = -last_.direction;
 }
 
 bool EventWatch::wanted(int direction) const {
@@ -60,11 +116,18 @@ void EventWatch::search(const Segment<>& segment, double from) {
   const Path<Eigen::Dynamic> path(segment, inputs_);
   const ComposedFunction function(path, Function{&enclosures_, &inputs_, &state_}, from - segment.t0(),
                                   segment.duration(), std::exchange(at_zero_, 0.0), true);
+  const FunctionSample begin = function.at(function.begin());
+  if (std::exchange(has_to_leave_, false) && last_.direction * begin.jet.curvature > 0.0 &&
+      begin.jet.rate * begin.jet.rate <= 2.0 * std::abs(begin.jet.curvature) * begin.tolerance) {
+    // what was turned back does not come as far as can be told from zero
+    next_ = {true, from, 2.0 * kUnitRoundoff * std::abs(from), last_.direction, false};
+    return;
+  }
   if (sign_ == 0) {
-    const FunctionSample begin = function.at(function.begin());
     if (std::abs(begin.jet.value) > begin.tolerance) sign_ = static_cast<int>(sign(begin.jet.value));
   }
-  visit_roots(function, [&](const Root& root) {
+  const bool has_landed = std::exchange(has_landed_, false);
+  const SearchStatus status = visit_roots(function, [&](const Root& root) {
     if (root.kind == RootKind::unresolved) {
       next_ = {true, segment.t0() + root.time, 0.0, 0, true};
       return false;
@@ -84,6 +147,10 @@ void EventWatch::search(const Segment<>& segment, double from) {
     next_ = {true, time, root.error_bound + 2.0 * kUnitRoundoff * std::abs(time), after, false};
     return false;
   });
+  if (status != SearchStatus::identically_zero || !has_landed) return;
+  // it jumped onto zero and stays there
+  const int direction = -std::exchange(sign_, 0);
+  if (wanted(direction)) next_ = {true, from, 2.0 * kUnitRoundoff * std::abs(from), direction, false};
 }
 
 }  // namespace trajet

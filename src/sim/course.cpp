@@ -110,12 +110,31 @@ void Course::restart(const Instant& instant) {
   const auto same = [](const RestingContact& a, const RestingContact& b) {
     return a.body == b.body && a.obstacle == b.obstacle && a.normal == b.normal && a.point == b.point;
   };
-  if (!ranges::equal(contacts_, instant.contacts, same)) {
+  const bool is_held_anew = !ranges::equal(contacts_, instant.contacts, same);
+  if (is_held_anew) {
     contacts_ = instant.contacts;
     use_contacts();
   }
-  for (Watch& watch : watches_) watch.watch.restart(t, instant.before().data(), instant.q.data());
+  restart_watches(instant, is_held_anew);
   begin(t, instant.q, &instant);
+}
+
+void Course::restart_watches(const Instant& instant, bool is_held_anew) {
+  if (watches_.empty()) return;
+  const double t = instant.time();
+  // of the jump, and of the state that the motion has at a rounded time
+  constexpr double kRoundings = 8.0;
+  const double time = std::abs(t) + std::abs(t - segment_.t0());
+  Eigen::VectorXd rounding(instant.q.size());
+  for (int i = 0; i < rounding.size(); ++i) {
+    const double change = time * std::abs(segment_.derivative(i, t));
+    rounding[i] = kRoundings * kUnitRoundoff * (std::abs(instant.before()[i]) + std::abs(instant.q[i]) + change);
+  }
+  for (Watch& watch : watches_) {
+    const bool begins = is_held_anew && watch.kind != Crossing::Kind::event;
+    const Eigen::VectorXd& before = begins ? instant.q : instant.before();
+    watch.watch.restart(t, before.data(), instant.q.data(), rounding.data());
+  }
 }
 
 StepStatus Course::advance() {
@@ -161,13 +180,23 @@ void Course::amend_stepper(const Eigen::VectorXd& q) {
 void Course::find_next() {
   next_ = {segment_.t1()};
   const double direction = segment_.t1() < segment_.t0() ? -1.0 : 1.0;
+  const Watch* first = nullptr;
   for (const Watch& watch : watches_) {
     if (!watch.watch.next().found) continue;
-    const double time = watch.watch.next().time;
-    const double ahead = direction * (next_.time - time);
-    if (ahead > 0.0 || (ahead == 0.0 && next_.kind == Crossing::Kind::segment_end))
-      next_ = {time, watch.kind, watch.index};
+    const double ahead = direction * (next_.time - watch.watch.next().time);
+    if (ahead < 0.0 || (ahead == 0.0 && first != nullptr)) continue;
+    first = &watch;
+    next_ = {watch.watch.next().time, watch.kind, watch.index, watch.watch.next().error_bound};
   }
+  if (first == nullptr) return;
+  // of what cannot be told apart in time, the one that stands first is the next
+  const auto is_now = [&](const Watch& watch) {
+    const EventWatch::Crossing& other = watch.watch.next();
+    return other.found && std::abs(other.time - next_.time) <= other.error_bound + first->watch.next().error_bound;
+  };
+  const Watch& next = *ranges::find_if(watches_, is_now);
+  next_.kind = next.kind;
+  next_.index = next.index;
 }
 
 Course::Watch& Course::watch(int event) {
@@ -181,10 +210,15 @@ const EventWatch::Crossing& Course::event_crossing(int event) const {
 
 void Course::take_event(int event) { watch(event).watch.take(); }
 
+void Course::turn_event(int event, const Instant& instant, const Eigen::VectorXd& rate_before) {
+  const double t = instant.time();
+  watch(event).watch.turn(t, instant.before().data(), rate_before.data(), instant.q.data(), rate(t, instant.q).data());
+}
+
 void Course::pass_event(int event) {
   EventWatch& passed = watch(event).watch;
   const double time = passed.next().time;
-  passed.take();
+  passed.pass();
   passed.search(segment_, time);
   find_next();
 }

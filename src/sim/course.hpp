@@ -31,6 +31,7 @@ struct Crossing {
   Kind kind = Kind::segment_end;
   int index =
       0;  ///< of the event in World::events; else of the lasting contact that would pull or has come to its edge
+  double error_bound = 0.0;  ///< s
 };
 
 /// One group of a World on its way: its stepper, the Segment it is on, and the crossings of zero it looks out for.
@@ -59,6 +60,10 @@ class Course {
   const EventWatch::Crossing& event_crossing(int event) const;
   /// The event has happened and will change the state: it is not the next one any more.
   void take_event(int event);
+  /// The event has changed the state, which the course has taken: its rate was this before.
+  void turn_event(int event, const Instant& instant, const Eigen::VectorXd& rate_before);
+  /// Whether the event's own set has turned or stopped what it watches.
+  bool has_turned(int event) const { return const_cast<Course*>(this)->watch(event).watch.has_turned(); }
   /// Goes on from an event that changed nothing.
   void pass_event(int event);
 
@@ -97,6 +102,8 @@ class Course {
   void use_contacts();
   /// `instant`: at which the course goes on; null at the start.
   void begin(double t, const Eigen::VectorXd& q, const Instant* instant);
+  /// `is_held_anew`: the lasting contacts have changed.
+  void restart_watches(const Instant& instant, bool is_held_anew);
   /// Puts orientations right where a step has ended, on the Segment too.
   void put_orientations_right();
   /// Replaces the stepper's state by one that means the same.

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <variant>
 
 #include "trajet/collide/detect/contact_table.hpp"
 #include "trajet/event/path.hpp"
+#include "trajet/geom/closest_point.hpp"
 #include "trajet/portable.hpp"
 
 namespace trajet {
@@ -224,8 +226,15 @@ void Encounters::take(const Instant& instant) {
   for (const auto& [id, memory] : instant.memories) find_or_add(id.body, id.obstacle, instant.time()).memory = memory;
 }
 
-void Encounters::forget(int body) {
-  for (Pair& pair : around(body).pairs) pair.memory = {};
+void Encounters::move(int body, const Vector3& from, const Vector3& to) {
+  for (Pair& pair : around(body).pairs) {
+    const Shape& shape = world_.obstacles[static_cast<std::size_t>(pair.id.obstacle)].shape;
+    const Vector3 closest = std::visit([&](const auto& s) { return closest_point(s, from); }, shape);
+    const Vector3 closest_behind = std::visit([&](const auto& s) { return closest_point(s, to); }, shape);
+    // along a flat face: it is where it was, a contact that is to come still comes
+    const double rounding = 16.0 * kUnitRoundoff * (from.norm() + to.norm() + closest.norm() + closest_behind.norm());
+    if (((to - closest_behind) - (from - closest)).norm() > rounding) pair.memory = {};
+  }
 }
 
 }  // namespace trajet

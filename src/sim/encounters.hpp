@@ -58,8 +58,8 @@ class Encounters {
   bool stay_in_contact(PairId id, const Course& course, double height);
   /// A course has restarted at the instant: takes what is known of its pairs from there on.
   void take(const Instant& instant);
-  /// The body was moved elsewhere.
-  void forget(int body);
+  /// The body was moved by a jump, m: forgets on which side of what it is, but where the jump keeps the gap.
+  void move(int body, const Vector3& from, const Vector3& to);
 
   /// How many pairs were searched so far.
   long searches() const { return searches_; }

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "body_state.hpp"
+#include "trajet/text/shortest_text.hpp"
 
 #include "trajet/portable.hpp"
 
@@ -28,6 +29,7 @@ Recorder::Recorder(const World& world, const Courses& courses, RunObserver& obse
   result_.start_time = result_.end_time = world.start;
   result_.parameters = world.parameters;
   result_.warnings = world.warnings;
+  if (BodyOverlaps::are_possible(world)) overlaps_.emplace(world);
 }
 
 bool Recorder::sample_until(double& time) {
@@ -83,8 +85,11 @@ Sample Recorder::sample_at(double time, std::optional<int> only) const {
 }
 
 void Recorder::motion(Course& course, double t) {
-  if (!wishes_.motion) return;
-  if (const std::optional<MotionPiece> piece = course.hand_on(t)) observer_.motion(*piece);
+  if (!wishes_.motion && !overlaps_) return;
+  const std::optional<MotionPiece> piece = course.hand_on(t);
+  if (!piece) return;
+  if (wishes_.motion) observer_.motion(*piece);
+  if (overlaps_) overlaps_->add(*piece);
 }
 
 void Recorder::impact(const Impact& impact) {
@@ -101,6 +106,15 @@ void Recorder::impact(const Impact& impact) {
 void Recorder::warn_of_tie(const Impact& impact, const std::string& body, const std::string& with) {
   warn("impacts of '" + impact.body + "' with '" + impact.with + "' and of '" + body + "' with '" + with +
        "' are closer in time than their error bounds: which is first is decided by rounding");
+}
+
+void Recorder::warn_of_overlap() {
+  if (!overlaps_) return;
+  const std::optional<BodyOverlaps::Overlap> overlap = overlaps_->finish(result_.end_time);
+  if (!overlap) return;
+  const auto name = [&](int body) { return "'" + world_.bodies[static_cast<std::size_t>(body)].name + "'"; };
+  warn("bodies " + name(overlap->first) + " and " + name(overlap->second) +
+       " overlap from t = " + shortest_text(overlap->time) + " s on: bodies do not meet each other, they pass through");
 }
 
 void Recorder::warn(const std::string& text) {
@@ -126,6 +140,7 @@ void Recorder::bound_final_errors() {
 
 RunResult Recorder::result() {
   for (const auto& course : courses_) motion(*course, result_.end_time);
+  warn_of_overlap();
   if (result_.status != RunStatus::stopped && last_sample_ != result_.end_time) sample(result_.end_time);
   result_.final = sample_at(result_.end_time, std::nullopt);
   bound_final_errors();

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "body_overlaps.hpp"
 #include "course.hpp"
 #include "trajet/scene/world.hpp"
 #include "trajet/sim/run_observer.hpp"
@@ -50,6 +51,7 @@ class Recorder {
  private:
   Sample sample_at(double time, std::optional<int> body) const;
   void bound_final_errors();
+  void warn_of_overlap();
 
   const World& world_;
   const Courses& courses_;
@@ -57,6 +59,7 @@ class Recorder {
   RunWishes wishes_;
   double direction_;
   RunResult result_;
+  std::optional<BodyOverlaps> overlaps_;  // where bodies could
   long next_sample_ = 0;
   std::optional<double> last_sample_;  // s, of all bodies
 };

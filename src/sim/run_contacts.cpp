@@ -44,9 +44,7 @@ void RunLoop::handle_contact(int index, const Pair& met) {
     return fail(time, "body '" + body.name + "' is inside obstacle '" + obstacle.name + "'");
   }
   if (pair.contact.status == ContactStatus::unresolved) return fail(time, "contact of " + names + " is unresolved");
-  Impacts& impacts = last_impacts_[static_cast<std::size_t>(pair.id.body)];
-  impacts = {time, impacts.time == time ? impacts.count + 1 : 1};
-  if (impacts.count > kMaxImpactsAtOnce)
+  if (last_impacts_[static_cast<std::size_t>(pair.id.body)].count_at(time) > kMaxImpactsAtOnce)
     return fail(time, "body '" + body.name + "' has impact after impact with '" + obstacle.name + "' at one instant");
 
   for (const int each : moving.group().bodies) encounters_.bound_times(each, moving);

@@ -7,9 +7,17 @@
 #include "ties.hpp"
 #include "trajet/law/evaluate.hpp"
 #include "trajet/scene/describe_failure.hpp"
+#include "trajet/text/shortest_text.hpp"
 
 namespace trajet {
 namespace {
+
+/// So many events of one course at one instant are sets that call each other, not a motion.
+constexpr int kMaxEventsAtOnce = 1000;
+/// Roundings of time within which an event that its own set has turned back happens at once.
+constexpr double kSameTime = 8.0;
+/// Roundings of time within which all is over of events that come faster and faster.
+constexpr double kNearLimit = 256.0;
 
 std::string status_text(StepStatus status) {
   return status == StepStatus::not_finite ? "the law is not finite"
@@ -32,18 +40,25 @@ RunLoop::RunLoop(const World& world, RunObserver& observer)
       encounters_(world),
       recorder_(world, courses_, observer),
       lasting_contacts_(world, courses_, encounters_, recorder_),
-      last_impacts_(world.bodies.size()) {}
+      last_impacts_(world.bodies.size()),
+      last_events_(world.groups.size()),
+      accumulations_(world.events.size()) {}
 
 RunLoop::Incident RunLoop::next(int index) const {
   const Course& course = *courses_[static_cast<std::size_t>(index)];
   const Crossing& crossing = course.next();
-  // at one time, events come first: an impact that ends the run must not hide them
   Incident first{crossing.time, nullptr};
   const bool is_end = crossing.kind == Crossing::Kind::segment_end;
+  const bool is_event = crossing.kind == Crossing::Kind::event;
   for (const int body : course.group().bodies) {
     const Pair* pair = encounters_.first(body);
     if (pair == nullptr) continue;
     const double ahead = direction_ * (first.time - pair->contact.time);
+    if (is_event && first.contact == nullptr && std::abs(ahead) <= crossing.error_bound) {
+      // at one instant, events come first: an impact that ends the run must not hide them
+      if (ahead > 0.0) first.time = pair->contact.time;
+      continue;
+    }
     if (ahead > 0.0 || (ahead == 0.0 && is_end && first.contact == nullptr)) first = {pair->contact.time, pair};
   }
   return first;
@@ -70,6 +85,10 @@ bool RunLoop::step() {
     agenda_.pop();
     const Incident incident = next(index);
     double time = incident.time;
+    if (stop_ && (direction_ * (time - stop_->time) > stop_->error_bound || is_segment_end(index, incident))) {
+      if (agenda_.empty()) stop();
+      return running_;
+    }
     if (!recorder_.sample_until(time) || recorder_.is_interrupted(time)) {
       interrupt(time);
       return false;
@@ -84,7 +103,7 @@ bool RunLoop::step() {
           if (!course(index).finished()) advance(index);
           break;
         case Crossing::Kind::event:
-          handle_event(index);
+          handle_event(index, time);
           break;
         case Crossing::Kind::pull:
         case Crossing::Kind::past_edge:
@@ -93,6 +112,7 @@ bool RunLoop::step() {
       }
     }
   }
+  if (running_ && agenda_.empty() && stop_) stop();
   if (running_ && agenda_.empty()) {
     fail_if_blown_up();
     running_ = false;
@@ -148,38 +168,69 @@ void RunLoop::go_on(int index, const Instant& instant) {
   encounters_.take(instant);
 }
 
-void RunLoop::handle_event(int index) {
+bool RunLoop::is_segment_end(int index, const Incident& incident) const {
+  return incident.contact == nullptr &&
+         courses_[static_cast<std::size_t>(index)]->next().kind == Crossing::Kind::segment_end;
+}
+
+void RunLoop::handle_event(int index, double time) {
   Course& moving = course(index);
   const Crossing crossing = moving.next();
   const World::Event& event = world_.events[static_cast<std::size_t>(crossing.index)];
   const EventWatch::Crossing found = moving.event_crossing(crossing.index);
-  if (found.undecided) return fail(crossing.time, "whether event '" + event.name + "' happens cannot be decided");
-  recorder_.event({crossing.time, event.name, found.direction});
+  if (found.undecided) return fail(time, "whether event '" + event.name + "' happens cannot be decided");
+  if (last_events_[static_cast<std::size_t>(index)].count_at(time) > kMaxEventsAtOnce)
+    return fail(time, "event '" + event.name + "' happens again and again at one instant");
+  recorder_.event({time, event.name, found.direction});
   switch (event.action) {
+    case EventAction::stop:
+      // when all that happens at this instant is done
+      if (!stop_) stop_ = {time, found.error_bound};
+      [[fallthrough]];
     case EventAction::record:
       moving.pass_event(crossing.index);
       for (const int body : moving.group().bodies) encounters_.search(body, moving, moving.next().time);
       enqueue(index);
       return;
-    case EventAction::stop:
-      recorder_.sample(crossing.time);
-      return stop();
     case EventAction::set:
       break;
   }
-  Instant instant(moving, crossing.time);
+  if (const std::string reason = accumulates(index, crossing.index, time); !reason.empty()) return fail(time, reason);
+  set(index, crossing.index, time);
+}
+
+std::string RunLoop::accumulates(int index, int event, double time) {
+  Accumulation& times = accumulations_[static_cast<std::size_t>(event)];
+  times.happen(time);
+  const double rounding = kUnitRoundoff * std::max(std::abs(time), std::abs(time - world_.start));
+  const bool is_stopped = course(index).has_turned(event) && std::abs(times.interval()) <= kSameTime * rounding;
+  const std::optional<double> limit = is_stopped ? times.extrapolated_limit() : times.limit(kNearLimit * rounding);
+  if (!limit && !is_stopped) return {};
+  return "event '" + world_.events[static_cast<std::size_t>(event)].name +
+         "' happens faster and faster, infinitely often before t = " + shortest_text(limit.value_or(time)) +
+         " s: what its set turns back or stops, the law drives across zero again; the motion behind that time is not "
+         "followed";
+}
+
+void RunLoop::set(int index, int event_index, double time) {
+  Course& moving = course(index);
+  const World::Event& event = world_.events[static_cast<std::size_t>(event_index)];
+  Instant instant(moving, time);
   Eigen::VectorXd values(static_cast<Eigen::Index>(event.targets.size()));
-  Evaluator<double> set(event.set);
-  set(crossing.time, instant.before().data(), values.data());
+  Evaluator<double> evaluate(event.set);
+  evaluate(time, instant.before().data(), values.data());
   for (std::size_t i = 0; i < event.targets.size(); ++i)
     instant.q[event.targets[i]] = values[static_cast<Eigen::Index>(i)];
-  instant.derivative = derivative_of_set(event, instant, moving.rate(crossing.time, instant.before()));
-  moving.take_event(crossing.index);
+  const Eigen::VectorXd rate = moving.rate(time, instant.before());
+  instant.derivative = derivative_of_set(event, instant, rate);
+  moving.take_event(event_index);
   lasting_contacts_.release_after_set(instant);
   go_on(index, instant);
+  moving.turn_event(event_index, instant, rate);
   for (const int body : moving.group().bodies) {
     const int offset = world_.bodies[static_cast<std::size_t>(body)].offset;
-    if (instant.q.segment<3>(offset) != instant.before().segment<3>(offset)) encounters_.forget(body);
+    const Vector3 from = instant.before().segment<3>(offset), to = instant.q.segment<3>(offset);
+    if (to != from) encounters_.move(body, from, to);
   }
   advance(index);
 }
@@ -197,6 +248,7 @@ void RunLoop::handle_contact_end(int index) {
 }
 
 void RunLoop::stop() {
+  if (stop_) recorder_.sample(recorder_.end_time());
   recorder_.end(RunStatus::stopped);
   running_ = false;
   agenda_ = {};

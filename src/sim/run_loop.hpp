@@ -2,9 +2,11 @@
 
 #include <limits>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "accumulation.hpp"
 #include "agenda.hpp"
 #include "encounters.hpp"
 #include "lasting_contacts.hpp"
@@ -43,7 +45,12 @@ class RunLoop {
   /// The course goes on as the instant says.
   void go_on(int course, const Instant& instant);
 
-  void handle_event(int course);
+  bool is_segment_end(int course, const Incident& incident) const;
+  void handle_event(int course, double time);
+  /// Why the motion cannot be followed behind the event, if it happens faster and faster; else nothing.
+  std::string accumulates(int course, int event, double time);
+  /// The event's `set` changes the state.
+  void set(int course, int event, double time);
   void handle_contact(int course, const Pair& met);
   void handle_contact_end(int course);
   /// Whether a contact is the last one still, from which the body moves away by its law; then the motion goes on.
@@ -74,12 +81,26 @@ class RunLoop {
   bool has_started_ = false;
   bool running_ = true;
   long step_count_ = 0;
-  /// How many impacts a body had at its last instant of impact.
-  struct Impacts {
+  /// How often something has happened at the last instant at which it did.
+  struct AtOneInstant {
     double time = std::numeric_limits<double>::quiet_NaN();
     int count = 0;
+    /// It happens at time t, s: so often did it there.
+    int count_at(double t) {
+      count = time == t ? count + 1 : 1;
+      time = t;
+      return count;
+    }
   };
-  std::vector<Impacts> last_impacts_;  // of each body
+  std::vector<AtOneInstant> last_impacts_;   // of each body
+  std::vector<AtOneInstant> last_events_;    // of each course
+  std::vector<Accumulation> accumulations_;  // of each event that sets
+  /// An event has asked for the end of the run.
+  struct Stop {
+    double time;         // s
+    double error_bound;  // s
+  };
+  std::optional<Stop> stop_;
 };
 
 }  // namespace trajet

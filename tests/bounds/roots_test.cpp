@@ -149,7 +149,8 @@ TEST(RootBounds, EventsLieWithinTheirErrorBounds) {
       const Segment<> segment = segment_of(t0, t0 + 1.0, {x, y});
       EventWatch watch(program_of(formula.text), CrossingDirection::any);
       const double start[] = {x[0], y[0]};
-      watch.restart(t0, start, start);
+      const double no_rounding[] = {0.0, 0.0};
+      watch.restart(t0, start, start, no_rounding);
       watch.search(segment, t0);
       const EventWatch::Crossing& crossing = watch.next();
       if (!crossing.found || crossing.undecided) continue;
