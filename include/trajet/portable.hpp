@@ -18,6 +18,7 @@ using std::ranges::count_if;
 using std::ranges::equal;
 using std::ranges::find;
 using std::ranges::find_if;
+using std::ranges::lower_bound;
 using std::ranges::max;
 using std::ranges::max_element;
 using std::ranges::none_of;
