@@ -204,7 +204,9 @@ bool Encounters::stay_in_contact(PairId id, const Course& course, double height)
   memory.side = touched.contact.side_before;
   memory.contact_time = time;
   // how far the Segment goes astray is found by trying
+  constexpr double kLeast = 0x1p-40;  // of the height
   constexpr double kMore = 16.0;
+  memory.tolerance = std::max(memory.tolerance, kLeast * height);
   if (touched.memory.contact_time == time)
     memory.tolerance = std::max(memory.tolerance, kMore * touched.memory.tolerance);
   if (memory.tolerance > 0.5 * height) return false;

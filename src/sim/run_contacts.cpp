@@ -74,10 +74,20 @@ bool RunLoop::goes_on_from_contact(int index, const Pair& pair, const Impact& im
   const Eigen::VectorXd rate = moving.rate(impact.time, moving.state(impact.time));
   const double speed = impact.normal.dot(rate.segment<3>(offset));
   const double pull = -impact.normal.dot(rate.segment<3>(offset + 3));
-  if (speed <= 0.0) return false;
-  // of the flight: u^2 / (2 g), or where nothing pulls back, that on the Segment
-  const double on_segment = speed * std::abs(moving.segment().t1() - impact.time);
-  const double height = pull > 0.0 ? speed * speed / (2.0 * pull) : on_segment;
+  if (speed <= 0.0 && pull >= 0.0) return false;
+  double height = 0.0;
+  if (speed > 0.0) {
+    // of the flight: u^2 / (2 g), or where nothing pulls back, that on the Segment
+    const double on_segment = speed * std::abs(moving.segment().t1() - impact.time);
+    height = pull > 0.0 ? speed * speed / (2.0 * pull) : on_segment;
+  } else {
+    // What turns back by itself before it is deeper than its place is known has not hit.
+    Eigen::VectorXd along = Eigen::VectorXd::Zero(moving.segment().dimension());
+    along.segment<3>(offset) = impact.normal;
+    const double known_to = moving.error_bound_along(along, moving.segment().t1());
+    if (speed * speed > -2.0 * pull * known_to) return false;
+    height = 2.0 * known_to;
+  }
   if (!encounters_.stay_in_contact(pair.id, moving, height)) return false;
   encounters_.search(pair.id.body, moving, moving.next().time);
   return true;
@@ -98,8 +108,8 @@ void RunLoop::bounce(int index, Pair pair, Impact impact) {
   instant.derivative = derivative_of_bounce(world_, pair, instant, moving.rate(t, instant.before()));
   impact.velocity_after = velocity;
   impact.impulse = mass_of(body, t, instant.q) * (impact.velocity_after - impact.velocity_before);
-  // else a flight so low that the Segment does not show it
-  const bool is_hit = approach.dot(impact.normal) <= 0.0;
+  // else it lies there, or its flight is so low that the Segment does not show it
+  const bool is_hit = approach.dot(impact.normal) < 0.0;
   if (is_hit) {
     recorder_.impact(impact);
     warn_of_hidden_ties(world_, encounters_, pair, impact, moving, recorder_);
@@ -125,8 +135,10 @@ bool RunLoop::rest(Instant& instant, const Pair& pair, const Impact& impact, boo
   const Eigen::VectorXd rate = instant.rate();
   const double speed = std::max(0.0, impact.normal.dot(rate.segment<3>(body.offset)));
   const double pull = -impact.normal.dot(rate.segment<3>(body.offset + 3));
-  const bool is_low = is_hidden || is_below_flight(speed, pull, pair.contact.memory.tolerance);
-  if (pull <= 0.0 || obstacle.restitution >= 1.0 || !is_low) return true;
+  const double tolerance = pair.contact.memory.tolerance;
+  const bool is_low = obstacle.restitution < 1.0 ? is_hidden || is_below_flight(speed, pull, tolerance)
+                                                 : is_lying(speed, pull, tolerance);
+  if (pull <= 0.0 || !is_low) return true;
   if (!is_flat_at(obstacle.shape, impact.point, impact.normal)) {
     fail(t, "body '" + body.name + "' comes to rest on the curved or sharp part of obstacle '" + obstacle.name +
                 "', where trajet cannot follow it");

@@ -235,13 +235,24 @@ void RunLoop::set(int index, int event_index, double time) {
   advance(index);
 }
 
+double RunLoop::end_of_pull(const Course& moving, const Crossing& crossing) const {
+  const double known = crossing.time + direction_ * 2.0 * crossing.error_bound;
+  bool is_next = direction_ * (moving.segment().t1() - known) > 0.0;
+  for (const int body : moving.group().bodies) {
+    const Pair* pair = encounters_.first(body);
+    is_next = is_next && (pair == nullptr || direction_ * (pair->contact.time - known) > 0.0);
+  }
+  return is_next ? known : crossing.time;
+}
+
 void RunLoop::handle_contact_end(int index) {
   Course& moving = course(index);
   const Crossing crossing = moving.next();
-  Instant instant(moving, crossing.time);
+  const double time = crossing.kind == Crossing::Kind::pull ? end_of_pull(moving, crossing) : crossing.time;
+  Instant instant(moving, time);
   const int body = instant.contacts[static_cast<std::size_t>(crossing.index)].body;
-  recorder_.sample(crossing.time, body);
-  recorder_.sample(crossing.time, body);
+  recorder_.sample(time, body);
+  recorder_.sample(time, body);
   lasting_contacts_.leave(instant, crossing.index, crossing.kind == Crossing::Kind::past_edge);
   go_on(index, instant);
   advance(index);

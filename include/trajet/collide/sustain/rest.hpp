@@ -12,10 +12,14 @@ inline bool is_below_flight(double speed, double pull, double tolerance) {
   return speed * speed <= 2.0 * pull * kLowestFlight * tolerance;
 }
 
+/// Whether it is in contact by itself, whatever its restitution: it does not move away, or no farther than can be told
+/// from contact.
+inline bool is_lying(double speed, double pull, double tolerance) { return speed * speed <= 2.0 * pull * tolerance; }
+
 /// For how long a body still bounces that leaves an obstacle with `speed`, pulled back with `pull`, before it rests: all
-/// flights to come, 2 u/g (1 + e + e^2 + ...), s. `restitution` < 1.
+/// flights to come, 2 u/g (1 + e + e^2 + ...), s. Zero for one that bounces for ever, of which only the first is left.
 inline double bouncing_time(double speed, double pull, double restitution) {
-  return 2.0 * std::max(0.0, speed) / (pull * (1.0 - restitution));
+  return restitution < 1.0 ? 2.0 * std::max(0.0, speed) / (pull * (1.0 - restitution)) : 0.0;
 }
 
 }  // namespace trajet
