@@ -103,6 +103,11 @@ void Recorder::impact(const Impact& impact) {
   result_.impacts.push_back(impact);
 }
 
+void Recorder::impacts(const std::vector<Impact>& group) {
+  impact(group.front());
+  result_.impacts.insert(result_.impacts.end(), group.begin() + 1, group.end());
+}
+
 void Recorder::warn_of_tie(const Impact& impact, const std::string& body, const std::string& with) {
   warn("impacts of '" + impact.body + "' with '" + impact.with + "' and of '" + body + "' with '" + with +
        "' are closer in time than their error bounds: which is first is decided by rounding");

@@ -34,6 +34,8 @@ class Recorder {
   void motion(Course& course, double t);
 
   void impact(const Impact& impact);
+  /// Impacts at one instant that were solved together.
+  void impacts(const std::vector<Impact>& group);
   void event(const EventRecord& event) { result_.events.push_back(event); }
   /// Impacts of two pairs may each have been first.
   void warn_of_tie(const Impact& impact, const std::string& body, const std::string& with);

@@ -3,6 +3,7 @@
 #include "extended_bounce.hpp"
 #include "impact_record.hpp"
 #include "jump_derivative.hpp"
+#include "plastic_bounce.hpp"
 #include "run_loop.hpp"
 #include "ties.hpp"
 #include "trajet/collide/respond/restitution.hpp"
@@ -102,15 +103,24 @@ void RunLoop::bounce(int index, Pair pair, Impact impact) {
   Instant instant(moving, t);
   auto velocity = instant.q.segment<3>(body.offset + 3);
   // the velocity of the centre is dr/dt, which a position_rate may set apart from v
-  const Vector3 approach = instant.rate().segment<3>(body.offset);
-  velocity += rebound(approach, impact.normal, obstacle_of(pair).restitution).impulse_per_mass;
-  if (world_.extended && approach == Vector3(impact.velocity_before)) bounce_extended(world_, pair, instant);
-  instant.derivative = derivative_of_bounce(world_, pair, instant, moving.rate(t, instant.before()));
-  impact.velocity_after = velocity;
-  impact.impulse = mass_of(body, t, instant.q) * (impact.velocity_after - impact.velocity_before);
+  const Eigen::VectorXd rate_before = instant.rate();
+  const Vector3 approach = rate_before.segment<3>(body.offset);
+  const double mass = mass_of(body, t, instant.q);
+  const std::vector<Impact> group = bounce_plastic(world_, encounters_, pair, impact, mass, instant);
+  if (group.empty()) {
+    velocity += rebound(approach, impact.normal, obstacle_of(pair).restitution).impulse_per_mass;
+    if (world_.extended && approach == Vector3(impact.velocity_before)) bounce_extended(world_, pair, instant);
+    instant.derivative = derivative_of_bounce(world_, pair, instant, moving.rate(t, instant.before()));
+    impact.velocity_after = velocity;
+    impact.impulse = mass * (impact.velocity_after - impact.velocity_before);
+  }
   // else it lies there, or its flight is so low that the Segment does not show it
-  const bool is_hit = approach.dot(impact.normal) < 0.0;
-  if (is_hit) {
+  const double pull = -impact.normal.dot(rate_before.segment<3>(body.offset + 3));
+  const double speed = -approach.dot(impact.normal);
+  const bool is_hit = speed > 0.0 && !is_lying(speed, std::max(0.0, pull), pair.contact.memory.tolerance);
+  if (!group.empty()) {
+    recorder_.impacts(group);
+  } else if (is_hit) {
     recorder_.impact(impact);
     warn_of_hidden_ties(world_, encounters_, pair, impact, moving, recorder_);
   }

@@ -12,9 +12,12 @@ inline bool is_below_flight(double speed, double pull, double tolerance) {
   return speed * speed <= 2.0 * pull * kLowestFlight * tolerance;
 }
 
-/// Whether it is in contact by itself, whatever its restitution: it does not move away, or no farther than can be told
-/// from contact.
-inline bool is_lying(double speed, double pull, double tolerance) { return speed * speed <= 2.0 * pull * tolerance; }
+/// Whether it lies there, whatever its restitution: its speed, either way, is not more than what `pull` gives over the
+/// few roundings of the gap that nobody can tell from contact.
+inline bool is_lying(double speed, double pull, double tolerance) {
+  constexpr double kFew = 16.0;
+  return speed * speed <= 2.0 * pull * kFew * tolerance;
+}
 
 /// For how long a body still bounces that leaves an obstacle with `speed`, pulled back with `pull`, before it rests: all
 /// flights to come, 2 u/g (1 + e + e^2 + ...), s. Zero for one that bounces for ever, of which only the first is left.
