@@ -198,6 +198,7 @@ double ProgramExpansionT<T>::duration_until_branch(double duration) {
   BranchTime first{search, -1, 0.0};
   double first_border = 0.0;
   for (std::size_t i = 0; i < branches_.size(); ++i) {
+    if (leaves_branches_by_time_ && branches_[i].is_by_time) continue;
     double border = 0.0;
     const BranchTime end = end_of_branch(branches_[i], first.duration, border);
     if (end.index < 0) {

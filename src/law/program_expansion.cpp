@@ -8,6 +8,7 @@
 #include "hidden_poles.hpp"
 #include "program_branches.hpp"
 #include "recurrence_step.hpp"
+#include "trajet/law/time_branches.hpp"
 
 #include "trajet/portable.hpp"
 
@@ -27,13 +28,16 @@ ProgramExpansionT<T>::ProgramExpansionT(Program program)
   end_state_.resize(program_.outputs.size());
   end_tolerance_.resize(program_.outputs.size());
   const std::vector<bool> hides_poles = detail::find_hidden_poles(program_);
+  const std::vector<bool> time_slots = find_time_slots(program_);
   for (std::size_t i = 0; i < program_.instructions.size(); ++i) {
     const Instruction& instruction = program_.instructions[i];
     const int own = row_count_;
     row_count_ += detail::scratch_count(instruction.opcode);
     const auto branch = find_branch(instruction, own, hides_poles[i]);
     branch_of_.push_back(branch ? static_cast<int>(branches_.size()) : -1);
-    if (branch) branches_.push_back(*branch);
+    if (!branch) continue;
+    branches_.push_back(*branch);
+    branches_.back().is_by_time = branches_by_time(instruction, time_slots);
   }
 }
 

@@ -23,6 +23,7 @@
 #include "trajet/law/program_builder.hpp"
 #include "trajet/portable.hpp"
 #include "trajet/scene/scene_units.hpp"
+#include "trajet/text/shortest_text.hpp"
 
 namespace trajet {
 namespace {
@@ -80,6 +81,7 @@ class WorldBuilder {
     const double duration = std::abs(world_.end - world_.start);
     if (world_.end < world_.start && !scene_.obstacles.empty())
       throw InputError(time.end->where(), "the end is before the start: impacts have no meaning backward in time");
+    warn_of_coarse_times(duration);
     if (!std::isfinite(duration)) throw InputError(time.end->where(), "start and end are too far apart for a double");
     if (time.sample) {
       world_.sample = numbers_.positive(*time.sample, "sample spacing");
@@ -89,6 +91,17 @@ class WorldBuilder {
       world_.sample =
           duration > 0.0 ? std::max(duration / kDefaultSampleCount, std::numeric_limits<double>::min()) : 1.0;
     }
+  }
+
+  void warn_of_coarse_times(double duration) {
+    const double latest = std::max(std::abs(world_.start), std::abs(world_.end));
+    const double spacing = std::nextafter(latest, std::numeric_limits<double>::infinity()) - latest;
+    // a run that starts at 0 has times that are 1e-16 of it apart
+    constexpr double kCoarse = 1e-10;
+    if (!(duration > 0.0 && spacing > kCoarse * duration)) return;
+    world_.warnings.push_back("the times of this run, near " + shortest_text(latest) + " s, are numbers " +
+                              shortest_text(spacing) +
+                              " s apart: what is over sooner is lost, such as low bounces; let the run start at 0");
   }
 
   double restitution_of(const ObstacleDefinition& obstacle) {

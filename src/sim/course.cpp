@@ -22,6 +22,7 @@ Course::Course(const World& world, int group)
     : world_(world),
       group_(group),
       free_system_(std::make_unique<ProgramSystem>(this->group().law)),
+      switches_(this->group().law),
       orientations_(world, group),
       closed_rotations_(world, group),
       error_(static_cast<int>(this->group().start.size()), world.method->carries_extended ? 0x1p-64 : kUnitRoundoff) {
@@ -29,6 +30,7 @@ Course::Course(const World& world, int group)
     const World::Event& definition = world.events[static_cast<std::size_t>(event)];
     watches_.push_back({Crossing::Kind::event, event, EventWatch(definition.when, definition.direction)});
   }
+  piece_ = {world.start, world.start, world.start, true};
   use_contacts();
   begin(world.start, this->group().start, nullptr);
 }
@@ -68,7 +70,27 @@ void Course::use_contacts() {
   stepper_ = world_.method->make(held_system_ ? *held_system_ : *free_system_, options);
 }
 
+void Course::enter_piece(double t) {
+  const double direction = world_.end < world_.start ? -1.0 : 1.0;
+  if (piece_.is_switch && direction * (t - piece_.end) >= 0.0) piece_ = switches_.piece(t, world_.end);
+  free_system_->keep_within(piece_.first, piece_.last);
+  if (held_system_) held_system_->keep_within(piece_.first, piece_.last);
+}
+
+void Course::pass_switch() {
+  const double t = stepper_->time();
+  enter_piece(t);
+  // a law that only has a corner there goes on from the rate that the method knows
+  if (!switches_.may_jump()) return;
+  if (const auto extended = extended_state(static_cast<Extended>(t) - segment_.t0())) {
+    stepper_->start_extended(t, *extended);
+  } else {
+    stepper_->start(t, end_state_);
+  }
+}
+
 void Course::begin(double t, const Eigen::VectorXd& q, const Instant* instant) {
+  if (!switches_.empty()) enter_piece(t);
   const Eigen::VectorXd* before = instant != nullptr ? &instant->before() : nullptr;
   end_state_ = q;
   orientations_.begin(end_state_, before);
@@ -140,7 +162,10 @@ void Course::restart_watches(const Instant& instant, bool is_held_anew) {
 StepStatus Course::advance() {
   if (segment_.duration() != 0.0) error_.pass(law(), segment_, segment_.t1());
   if (rest_of_step_.empty()) {
-    if (const StepStatus status = stepper_->advance(world_.end); status != StepStatus::ok) return status;
+    const bool has_switch = !switches_.empty() && piece_.is_switch;
+    if (has_switch && stepper_->time() == piece_.end) pass_switch();
+    const double limit = !switches_.empty() && piece_.is_switch ? piece_.end : world_.end;
+    if (const StepStatus status = stepper_->advance(limit); status != StepStatus::ok) return status;
     stepper_->fill_segment(segment_);
     end_state_ = stepper_->state();
     if (!orientations_.empty()) put_orientations_right();

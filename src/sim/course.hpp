@@ -11,6 +11,7 @@
 #include "state_error.hpp"
 #include "trajet/collide/sustain/resting_contact.hpp"
 #include "trajet/event/event_watch.hpp"
+#include "trajet/event/time_switches.hpp"
 #include "trajet/ode/registry.hpp"
 #include "trajet/portable.hpp"
 #include "trajet/scene/program_system.hpp"
@@ -104,6 +105,10 @@ class Course {
   void begin(double t, const Eigen::VectorXd& q, const Instant* instant);
   /// `is_held_anew`: the lasting contacts have changed.
   void restart_watches(const Instant& instant, bool is_held_anew);
+  /// From time t on, where the law may switch: it stays on its branches up to the next switch.
+  void enter_piece(double t);
+  /// The step has ended at a switch of the law: goes on behind it.
+  void pass_switch();
   /// Puts orientations right where a step has ended, on the Segment too.
   void put_orientations_right();
   /// Replaces the stepper's state by one that means the same.
@@ -116,6 +121,8 @@ class Course {
   std::unique_ptr<ProgramSystem> free_system_;
   std::unique_ptr<ProgramSystem> held_system_;  // with contacts only
   std::unique_ptr<AnyStepper> stepper_;
+  TimeSwitches switches_;
+  TimeSwitches::Piece piece_{};  // that the law is kept within
   OrientationUpkeep orientations_;
   ClosedRotations closed_rotations_;
   StateError error_;

@@ -139,6 +139,7 @@ velocity = [1, 2, 3]
 color = "#ff4000"
 [[body]]
 name = "white"
+position = [0, 0, 1]
 velocity = [3, 2, 1]
 color = "white"
 [[obstacle]]

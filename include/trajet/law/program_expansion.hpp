@@ -43,6 +43,8 @@ class ProgramExpansionT {
   /// starts there from the state reached, takes those behind. 0: they do not hold at all; expand again from the same
   /// state.
   double duration_until_branch(double duration);
+  /// Branches that t alone decides hold until the caller, who knows when they change, expands behind that time.
+  void leave_branches_by_time() { leaves_branches_by_time_ = true; }
 
  private:
   /// Where an instruction may take another branch.
@@ -54,8 +56,9 @@ class ProgramExpansionT {
       interval,  ///< decided by the interval from `lower` to `upper` that the function lies in
     };
     Kind kind = Kind::sign;
-    int function = 0;   ///< row of the function that decides
-    double sign = 0.0;  ///< the sign taken by the last expansion; of an interval always 1
+    bool is_by_time = false;  ///< t alone decides
+    int function = 0;         ///< row of the function that decides
+    double sign = 0.0;        ///< the sign taken by the last expansion; of an interval always 1
     double lower = 0.0, upper = 0.0;
     bool starts_at_zero = false;        ///< the last expansion started where the function is zero but for rounding
     std::optional<double> forced_sign;  ///< the next expansion starts at a zero of the function and takes this sign
@@ -107,6 +110,7 @@ class ProgramExpansionT {
   double direction_ = 1.0;  ///< of the next expansion: that of the last search
   int order_ = 0;
   double start_ = 0.0;
+  bool leaves_branches_by_time_ = false;
   bool has_end_ = false;  ///< the last search found the end of a branch, here:
   double end_time_ = 0.0;
   std::vector<double> end_state_;      // (dimension)

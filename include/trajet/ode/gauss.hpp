@@ -187,6 +187,7 @@ class GaussStepper {
       k_.col(i) += change;
       size = std::max(size, std::abs(h) * change.template lpNorm<Eigen::Infinity>());
     }
+    if (size == 0.0) return 0.0;  // of a state at rest in zero too
     return size / std::max(q0_.template lpNorm<Eigen::Infinity>(), std::abs(h) * k_.template lpNorm<Eigen::Infinity>());
   }
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <limits>
 #include <optional>
 
 #include "trajet/law/evaluate.hpp"
@@ -19,18 +21,27 @@ class ProgramSystem : public System {
   ProgramSystem& operator=(const ProgramSystem&) = delete;
 
   int dimension() const override { return expansion_.dimension(); }
-  void rate(double t, const double* q, double* dq) override { evaluator_(t, q, dq); }
+  /// The law is asked for what it is between these two times, s, within which no branch changes by t alone: outside it
+  /// goes on as at the nearer one, so that it is on one branch up to the very end of a step.
+  void keep_within(double first, double last) {
+    earliest_ = std::min(first, last);
+    latest_ = std::max(first, last);
+    leaves_branches_by_time_ = true;
+    expansion_.leave_branches_by_time();
+  }
+  void rate(double t, const double* q, double* dq) override { evaluator_(within(t), q, dq); }
   void jacobian(double t, const double* q, double* dg_dq, double* dg_dt) override {
     if (!jacobian_) jacobian_.emplace(expansion_.program());
-    (*jacobian_)(t, q, dg_dq, dg_dt);
+    (*jacobian_)(within(t), q, dg_dq, dg_dt);
   }
   void expand(double t, const double* q, int order, double* coefficients) override {
-    expansion_.expand(t, q, order, coefficients);
+    expansion_.expand(within(t), q, order, coefficients);
     extended_was_last_ = false;
   }
   void expand(double t, const Extended* q, int order, Extended* coefficients) override {
     if (!extended_) extended_.emplace(expansion_.program());
-    extended_->expand(t, q, order, coefficients);
+    if (leaves_branches_by_time_) extended_->leave_branches_by_time();
+    extended_->expand(within(t), q, order, coefficients);
     extended_was_last_ = true;
   }
   double duration_until_branch(double duration) override {
@@ -47,6 +58,11 @@ class ProgramSystem : public System {
   }
 
  private:
+  double within(double t) const { return std::clamp(t, earliest_, latest_); }
+
+  double earliest_ = -std::numeric_limits<double>::infinity();
+  double latest_ = std::numeric_limits<double>::infinity();
+  bool leaves_branches_by_time_ = false;
   ProgramExpansion expansion_;
   std::optional<ProgramExpansionT<Extended>> extended_;  // made when first asked for
   bool extended_was_last_ = false;
