@@ -75,14 +75,15 @@ bool RunLoop::goes_on_from_contact(int index, const Pair& pair, const Impact& im
   const Eigen::VectorXd rate = moving.rate(impact.time, moving.state(impact.time));
   const double speed = impact.normal.dot(rate.segment<3>(offset));
   const double pull = -impact.normal.dot(rate.segment<3>(offset + 3));
-  if (speed <= 0.0 && pull >= 0.0) return false;
+  const bool has_left = pull < 0.0 && pair.memory.contact_time == impact.time;
+  if (speed <= 0.0 && !has_left) return false;
   double height = 0.0;
   if (speed > 0.0) {
     // of the flight: u^2 / (2 g), or where nothing pulls back, that on the Segment
     const double on_segment = speed * std::abs(moving.segment().t1() - impact.time);
     height = pull > 0.0 ? speed * speed / (2.0 * pull) : on_segment;
   } else {
-    // What turns back by itself before it is deeper than its place is known has not hit.
+    // What the law carries away from the contact that it has just left has not hit: the Segment goes astray.
     Eigen::VectorXd along = Eigen::VectorXd::Zero(moving.segment().dimension());
     along.segment<3>(offset) = impact.normal;
     const double known_to = moving.error_bound_along(along, moving.segment().t1());
@@ -117,7 +118,9 @@ void RunLoop::bounce(int index, Pair pair, Impact impact) {
   // else it lies there, or its flight is so low that the Segment does not show it
   const double pull = -impact.normal.dot(rate_before.segment<3>(body.offset + 3));
   const double speed = -approach.dot(impact.normal);
-  const bool is_hit = speed > 0.0 && !is_lying(speed, std::max(0.0, pull), pair.contact.memory.tolerance);
+  const double no_time = kUnitRoundoff * (world_.end - world_.start);
+  const double lowest_fall = std::max(pair.contact.memory.tolerance, std::abs(pull) * no_time * no_time);
+  const bool is_hit = speed > 0.0 && !is_lying(speed, std::max(0.0, pull), lowest_fall);
   if (!group.empty()) {
     recorder_.impacts(group);
   } else if (is_hit) {

@@ -35,16 +35,18 @@ TEST(PlasticGroup, IsTheNearestVelocityThatAllSurfacesLetPass) {
     const Vector3 velocity = random_vector(random);
     const std::vector<double> impulses = plastic_impulses(normals, velocity);
     const Vector3 left = after(normals, impulses, velocity);
-    // the smallest angle between normals decides how far rounding reaches: it is above 1e-3 in all but a few
-    constexpr double kRounding = 1e-10;
+    // Nearly parallel surfaces answer with large impulses, whose square bounds the condition of their equations.
+    const double largest = 1.0 + *std::max_element(impulses.begin(), impulses.end());
+    const double rounding = 1e-13 * largest * largest * velocity.norm();
     for (std::size_t i = 0; i < normals.size(); ++i) {
       ASSERT_GE(impulses[i], 0.0) << sample;
-      ASSERT_GE(left.dot(normals[i]), -kRounding) << sample;
-      ASSERT_NEAR(impulses[i] * left.dot(normals[i]), 0.0, kRounding) << sample;
+      ASSERT_GE(left.dot(normals[i]), -rounding) << sample;
+      ASSERT_NEAR(impulses[i] * left.dot(normals[i]), 0.0, rounding) << sample;
     }
-    ASSERT_LE(left.norm(), velocity.norm() * (1.0 + kRounding)) << sample;
+    ASSERT_LE(left.norm(), velocity.norm() * (1.0 + rounding)) << sample;
     std::vector<Vector3> other(normals.rbegin(), normals.rend());
-    ASSERT_NEAR((after(other, plastic_impulses(other, velocity), velocity) - left).norm(), 0.0, kRounding) << sample;
+    ASSERT_NEAR((after(other, plastic_impulses(other, velocity), velocity) - left).norm(), 0.0, 100.0 * rounding)
+        << sample;
   }
 }
 
