@@ -96,12 +96,9 @@ class WorldBuilder {
   void warn_of_coarse_times(double duration) {
     const double latest = std::max(std::abs(world_.start), std::abs(world_.end));
     const double spacing = std::nextafter(latest, std::numeric_limits<double>::infinity()) - latest;
-    // a run that starts at 0 has times that are 1e-16 of it apart
-    constexpr double kCoarse = 1e-10;
-    if (!(duration > 0.0 && spacing > kCoarse * duration)) return;
-    world_.warnings.push_back("the times of this run, near " + shortest_text(latest) + " s, are numbers " +
-                              shortest_text(spacing) +
-                              " s apart: what is over sooner is lost, such as low bounces; let the run start at 0");
+    if (duration > 0.0 && spacing > 1e-10 * duration)
+      world_.warnings.push_back("times near " + shortest_text(latest) + " s are numbers " + shortest_text(spacing) +
+                                " s apart: what is over sooner, such as low bounces, is lost; let the run start at 0");
   }
 
   double restitution_of(const ObstacleDefinition& obstacle) {
