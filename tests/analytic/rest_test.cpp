@@ -255,7 +255,7 @@ when = "t - 1"
 set = { )" + std::string(c.set) + " }\n" + kBouncingGround +
                                             "restitution = 0.5\n");
     ASSERT_EQ(result.status, RunStatus::finished) << result.failure;
-    EXPECT_EQ(test::impacts_of(result, ImpactKind::hit).size(), 1 + c.hits);
+    EXPECT_EQ(test::impacts_of(result, ImpactKind::hit).size(), c.hits);
     EXPECT_EQ(test::impacts_of(result, ImpactKind::leave).size(), c.height > 0.0 && c.hits == 0 ? 1u : 0u);
     EXPECT_NEAR(test::final_of(result, "ball").position.z(), c.height, 1e-13);
   }
@@ -321,15 +321,15 @@ name = "ball"
 velocity = [1, 0, 0]
 acceleration = [0, 0, -9.8]
 )" + plane("floor", "[0, 0, 1]", 0.0) + plane("ramp", "[-1, 0, 1]", 0.9, "[2, 0, 0]"));
-  // A start in contact at rest is pressed down at once.
-  ASSERT_EQ(result.impacts.size(), 4u);
-  EXPECT_EQ(result.impacts[1].kind, ImpactKind::rest);
-  EXPECT_EQ(result.impacts[2].with, "ramp");
-  EXPECT_NEAR(result.impacts[2].time, 2.0, 1e-15);
-  EXPECT_NEAR(result.impacts[2].velocity_after.x(), 0.05, 1e-15);
-  EXPECT_NEAR(result.impacts[2].velocity_after.z(), 0.95, 1e-15);
-  EXPECT_EQ(result.impacts[3].kind, ImpactKind::leave);
-  EXPECT_EQ(result.impacts[3].with, "floor");
+  // It rests from the start.
+  ASSERT_EQ(result.impacts.size(), 3u);
+  EXPECT_EQ(result.impacts[0].kind, ImpactKind::rest);
+  EXPECT_EQ(result.impacts[1].with, "ramp");
+  EXPECT_NEAR(result.impacts[1].time, 2.0, 1e-15);
+  EXPECT_NEAR(result.impacts[1].velocity_after.x(), 0.05, 1e-15);
+  EXPECT_NEAR(result.impacts[1].velocity_after.z(), 0.95, 1e-15);
+  EXPECT_EQ(result.impacts[2].kind, ImpactKind::leave);
+  EXPECT_EQ(result.impacts[2].with, "floor");
   EXPECT_NEAR(test::final_of(result, "ball").position.z(), 0.95 * 0.05 - 4.9 * 0.05 * 0.05, 1e-14);
 }
 
