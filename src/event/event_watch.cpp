@@ -106,6 +106,12 @@ void EventWatch::turn(double t, const double* before, const double* rate_before,
   if (has_turned_) sign_ = -last_.direction;
 }
 
+void EventWatch::forget_unless_rising(double t, const double* q, const double* rate) {
+  if (!next_.found || rate_at(t, q, rate) > 0.0) return;
+  next_ = {};
+  sign_ = -1;
+}
+
 bool EventWatch::wanted(int direction) const {
   return direction_ == CrossingDirection::any || (direction_ == CrossingDirection::rising) == (direction > 0);
 }

@@ -156,6 +156,8 @@ void Course::restart_watches(const Instant& instant, bool is_held_anew) {
     const bool begins = is_held_anew && watch.kind != Crossing::Kind::event;
     const Eigen::VectorXd& before = begins ? instant.q : instant.before();
     watch.watch.restart(t, before.data(), instant.q.data(), rounding.data());
+    if (watch.kind == Crossing::Kind::past_edge)
+      watch.watch.forget_unless_rising(t, instant.q.data(), rate(t, instant.q).data());
   }
 }
 

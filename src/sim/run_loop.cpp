@@ -50,6 +50,7 @@ RunLoop::Incident RunLoop::next(int index) const {
   Incident first{crossing.time, nullptr};
   const bool is_end = crossing.kind == Crossing::Kind::segment_end;
   const bool is_event = crossing.kind == Crossing::Kind::event;
+  const bool is_edge = crossing.kind == Crossing::Kind::past_edge;
   for (const int body : course.group().bodies) {
     const Pair* pair = encounters_.first(body);
     if (pair == nullptr) continue;
@@ -59,7 +60,12 @@ RunLoop::Incident RunLoop::next(int index) const {
       if (ahead > 0.0) first.time = pair->contact.time;
       continue;
     }
-    if (ahead > 0.0 || (ahead == 0.0 && is_end && first.contact == nullptr)) first = {pair->contact.time, pair};
+    // where two faces meet, what slides into the edge has come to the other face before it is past its own
+    constexpr double kFew = 4.0;
+    const bool is_corner =
+        is_edge && first.contact == nullptr && ahead >= -kFew * (crossing.error_bound + pair->contact.time_resolution);
+    const bool is_first = ahead > 0.0 || (ahead == 0.0 && is_end && first.contact == nullptr);
+    if (is_corner || is_first) first = {pair->contact.time, pair};
   }
   return first;
 }
