@@ -1,6 +1,7 @@
 #include "lasting_contacts.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <variant>
 
 #include "impact_record.hpp"
@@ -125,34 +126,54 @@ void LastingContacts::record(const RestingContact& contact, ImpactKind kind, dou
   recorder_.impact(describe(world_, contact, kind, time, q));
 }
 
-void LastingContacts::rest_on_continuation(Instant& instant, const RestingContact& left) {
-  const World::Body& moving = body(left.body);
-  const Vector3 position = instant.q.segment<3>(left.offset);
-  const Vector3 velocity = instant.q.segment<3>(left.offset + 3);
-  const double radius = bounding_radius(moving.solid);
-  const Vector3 foot = position - radius * left.normal;
+bool LastingContacts::goes_on(const RestingContact& contact, int next, const Eigen::VectorXd& q) const {
+  const World::Obstacle& other = obstacle(next);
+  const Vector3 position = q.segment<3>(contact.offset);
+  const Vector3 velocity = q.segment<3>(contact.offset + 3);
+  const double radius = bounding_radius(body(contact.body).solid);
+  const Vector3 foot = position - radius * contact.normal;
   const Vector3 ahead = ahead_of(foot, velocity);
+  if (other.on_hit != OnHit::bounce || !is_flat_at(other.shape, ahead, contact.normal)) return false;
   const double size = position.norm() + radius;
+  const Vector3 above = foot + size * contact.normal;
+  const Vector3 apart = closest_point_of(other.shape, above) - foot;
+  constexpr double kStep = 1e-12;  // a step this high, of the place and the size, is none
+  const double step = kStep * size;
+  // a ball touches an edge beside it from sqrt(2 r h) away on, h the step
+  const double reach = step + std::sqrt(2.0 * radius * step);
+  return std::abs(apart.dot(contact.normal)) <= step && apart.norm() <= reach &&
+         !moves_off(face_outline(other.shape, ahead, contact.normal), position, velocity);
+}
+
+bool LastingContacts::slides_onto(PairId id, const Course& course, const Eigen::VectorXd& q) const {
+  return ranges::any_of(course.contacts(), [&](const RestingContact& contact) {
+    return contact.body == id.body && goes_on(contact, id.obstacle, q);
+  });
+}
+
+std::optional<PairId> LastingContacts::continuation(const RestingContact& left, const Eigen::VectorXd& q) const {
   const auto continues = [&](const Pair& pair) {
-    const World::Obstacle& next = obstacle(pair.id.obstacle);
     // another face of the same obstacle may be next
     const bool is_taken = pair.is_lasting && pair.id.obstacle != left.obstacle;
-    if (is_taken || next.on_hit != OnHit::bounce || !is_flat_at(next.shape, ahead, left.normal)) return false;
-    const Vector3 above = foot + size * left.normal;
-    constexpr double kStep = 1e-12;  // a step this high, of the place and the size, is none
-    return (closest_point_of(next.shape, above) - foot).norm() <= kStep * size &&
-           !moves_off(face_outline(next.shape, ahead, left.normal), position, velocity);
+    return !is_taken && goes_on(left, pair.id.obstacle, q);
   };
   const std::vector<Pair>& pairs = encounters_.pairs(left.body);
   const auto found = ranges::find_if(pairs, continues);
-  if (found == pairs.end()) return;
+  return found != pairs.end() ? std::optional(found->id) : std::nullopt;
+}
+
+void LastingContacts::rest_on_continuation(Instant& instant, const RestingContact& left) {
+  const std::optional<PairId> found = continuation(left, instant.q);
+  if (!found) return;
+  const double radius = bounding_radius(body(left.body).solid);
+  const Vector3 foot = instant.q.segment<3>(left.offset) - radius * left.normal;
   RestingContact next = left;
-  next.obstacle = found->id.obstacle;
-  next.point = ahead;
+  next.obstacle = found->obstacle;
+  next.point = ahead_of(foot, instant.q.segment<3>(left.offset + 3));
   record(next, ImpactKind::rest, instant.time(), instant.q);
   instant.contacts.push_back({next.body, next.obstacle, next.offset, next.normal, next.point, next.normal});
-  const bool is_behind = radius == 0.0 && looks_down(obstacle(next.obstacle).shape, ahead, left.normal);
-  instant.memories.emplace_back(found->id, ContactMemory{.side = is_behind ? -1 : 1, .contact_time = instant.time()});
+  const bool is_behind = radius == 0.0 && looks_down(obstacle(next.obstacle).shape, next.point, left.normal);
+  instant.memories.emplace_back(*found, ContactMemory{.side = is_behind ? -1 : 1, .contact_time = instant.time()});
 }
 
 void LastingContacts::leave(Instant& instant, int index, bool is_past_edge) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <set>
 #include <tuple>
 
@@ -30,6 +31,10 @@ class LastingContacts {
   void release_after_set(Instant& instant);
   /// Ends the contact of that index by itself: what it would have to pull, or an edge that the body has come to.
   void leave(Instant& instant, int contact, bool is_past_edge);
+  /// Where the face of a contact goes on without a step ahead of the body, the pair with the obstacle on which it does.
+  std::optional<PairId> continuation(const RestingContact& left, const Eigen::VectorXd& q) const;
+  /// Whether a face on which the body slides goes on without a step on that obstacle, whose edge is nothing to hit.
+  bool slides_onto(PairId id, const Course& course, const Eigen::VectorXd& q) const;
   /// Reports the rests whose time has come.
   void record_until(double time);
 
@@ -38,6 +43,8 @@ class LastingContacts {
   ContactMemory& release(Instant& instant, int contact);
   void end(Instant& instant, int contact);
   void record(const RestingContact& contact, ImpactKind kind, double time, const Eigen::VectorXd& q);
+  /// Whether the face of a contact goes on on another obstacle ahead of the body.
+  bool goes_on(const RestingContact& contact, int next, const Eigen::VectorXd& q) const;
   /// Where a body slides off a face and another one goes on from there without a step, its contact with that one
   /// begins.
   void rest_on_continuation(Instant& instant, const RestingContact& left);

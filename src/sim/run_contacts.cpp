@@ -52,6 +52,11 @@ void RunLoop::handle_contact(int index, const Pair& met) {
   Impact impact = describe(world_, pair, moving.state(time));
   impact.time = time;
   if (is_hit(pair.contact) && obstacle.on_hit == OnHit::bounce) {
+    if (lasting_contacts_.slides_onto(pair.id, moving, moving.state(time))) {
+      encounters_.pass(pair.id, moving);
+      encounters_.search(pair.id.body, moving, moving.next().time);
+      return enqueue(index);
+    }
     if (goes_on_from_contact(index, pair, impact)) return enqueue(index);
     return bounce(index, pair, impact);
   }
@@ -157,13 +162,19 @@ bool RunLoop::rest(Instant& instant, const Pair& pair, const Impact& impact, boo
                 "', where trajet cannot follow it");
     return false;
   }
+  PairId on = pair.id;
   if (bounding_radius(body.solid) > 0.0 && moves_off(face_outline(obstacle.shape, impact.point, impact.normal),
                                                      impact.position, instant.q.segment<3>(body.offset + 3))) {
-    fail(t, "body '" + body.name + "' slides over an edge of obstacle '" + obstacle.name +
-                "' too slowly to leave it, where trajet cannot follow it");
-    return false;
+    const RestingContact here{pair.id.body, pair.id.obstacle, body.offset, impact.normal, impact.point, impact.normal};
+    const std::optional<PairId> next = lasting_contacts_.continuation(here, instant.q);
+    if (!next) {
+      fail(t, "body '" + body.name + "' slides over an edge of obstacle '" + obstacle.name +
+                  "' too slowly to leave it, where trajet cannot follow it");
+      return false;
+    }
+    on = *next;
   }
-  lasting_contacts_.begin(instant, pair.id, impact, t + bouncing_time(speed, pull, obstacle.restitution));
+  lasting_contacts_.begin(instant, on, impact, t + bouncing_time(speed, pull, obstacle.restitution));
   lasting_contacts_.release_by_force(instant, pair.id.body);
   return true;
 }
