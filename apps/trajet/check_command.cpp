@@ -1,14 +1,14 @@
 #include <fmt/format.h>
 
 #include "commands.hpp"
+#include "scene_source.hpp"
 #include "trajet/io/output_file.hpp"
-#include "trajet/io/scene_file.hpp"
 #include "trajet/sim/run.hpp"
 
 namespace trajet {
 
 int check_command(const RunArguments& arguments) {
-  Scene scene = read_scene(arguments.scene);
+  Scene scene = read_named_scene(arguments.scene);
   apply(arguments.overrides, scene);
   check(scene);
   if (arguments.quiet) return kDone;

@@ -6,11 +6,11 @@
 #include "output_names.hpp"
 #include "plot_file.hpp"
 #include "run_monitor.hpp"
+#include "scene_source.hpp"
 #include "terminal.hpp"
 #include "text_table.hpp"
 #include "trajet/io/compare_report.hpp"
 #include "trajet/io/output_file.hpp"
-#include "trajet/io/scene_file.hpp"
 #include "trajet/sim/observer_list.hpp"
 #include "trajet/study/compare.hpp"
 #include "trajet/viz/compare_figure.hpp"
@@ -171,7 +171,7 @@ int compare_command(const CompareArguments& arguments) {
   check_outputs(arguments.scene, {{"--json", arguments.json}, {"--csv", arguments.csv}, {"--plot", arguments.plot}});
   std::optional<PlotFile> plot;
   if (!arguments.plot.empty()) plot.emplace(arguments.plot);
-  Scene scene = read_scene(arguments.scene);
+  Scene scene = read_named_scene(arguments.scene);
   apply(arguments.overrides, scene);
   const ComparePlan plan = trajet::plan(arguments);
   const World world = check(scene, plan);

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cmath>
 #include <exception>
 #include <string>
@@ -25,9 +26,11 @@ CLI::Validator positive_number() {
 }
 
 void add_scene_options(CLI::App& command, RunArguments& arguments) {
-  command.add_option("SCENE", arguments.scene, "scene file (TOML)")->required();
+  command.add_option("SCENE", arguments.scene, "scene file (TOML), - for standard input, or a built-in scene's name")
+      ->required();
   SceneOverrides& overrides = arguments.overrides;
-  command.add_option("--set", overrides.parameters, "replace a parameter, NAME=VALUE; repeatable")
+  command
+      .add_option("--set", overrides.parameters, "replace a parameter or a key (ball.velocity), NAME=VALUE; repeatable")
       ->type_name("NAME=VALUE")
       ->allow_extra_args(false);
   command.add_option("--method", overrides.method, "integration method, see 'trajet methods'")->type_name("NAME");
@@ -74,10 +77,37 @@ void add_compare_options(CLI::App& command, CompareArguments& arguments) {
       ->type_name("NAME");
 }
 
+/// An option that there is not gets a better answer than CLI11's too: with the nearest one.
+std::string unknown_option(const CLI::App& app) {
+  const CLI::App* command = &app;
+  for (const CLI::App* each : app.get_subcommands()) command = each;
+  const std::vector<std::string> unexpected = app.remaining(true);
+  std::vector<std::string> names;
+  for (const CLI::Option* option : command->get_options())
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  for (std::string word : unexpected) {
+    word = word.substr(0, word.find('='));
+    if (!word.starts_with('-') || word == "-") continue;
+    return "unknown option '" + word + "', see 'trajet " + command->get_name() + " --help'" +
+           did_you_mean(word, std::vector<std::string_view>(names.begin(), names.end()));
+  }
+  return "'" + (unexpected.empty() ? "" : unexpected.front()) + "' is one argument too many, see 'trajet " +
+         command->get_name() + " --help'";
+}
+
+/// `trajet help run` is `trajet run --help`.
+std::vector<std::string> with_help_spelt_out(std::vector<std::string> words) {
+  if (words.empty() || words.front() != "help") return words;
+  words.erase(words.begin());
+  words.resize(std::min<std::size_t>(words.size(), 1));
+  words.push_back("--help");
+  return words;
+}
+
 /// An unknown command gets a better answer than CLI11's; options are left to it.
-void check_command_name(const std::vector<std::string_view>& commands, int argc, char** argv) {
-  if (argc < 2) return;
-  const std::string_view word = argv[1];
+void check_command_name(const std::vector<std::string_view>& commands, const std::vector<std::string>& words) {
+  if (words.empty()) return;
+  const std::string_view word = words.front();
   for (const std::string_view command : commands)
     if (word == command) return;
   if (word.starts_with('-')) return;
@@ -87,7 +117,8 @@ void check_command_name(const std::vector<std::string_view>& commands, int argc,
 
 int run_program(int argc, char** argv) {
   CLI::App app("trajet: the motion of particles and rigid solids, with the exact time and place of every impact");
-  app.set_version_flag("--version", std::string("trajet ") + kVersion);
+  app.name("trajet");
+  app.set_version_flag("-V,--version", std::string("trajet ") + kVersion);
   app.require_subcommand(1);
 
   RunArguments arguments;
@@ -127,9 +158,13 @@ int run_program(int argc, char** argv) {
   CLI::App& examples = *app.add_subcommand("examples", "list the built-in scenes, or print one");
   examples.add_option("NAME", example, "the scene to print");
 
-  check_command_name({"run", "view", "check", "compare", "methods", "examples", "verify"}, argc, argv);
+  std::vector<std::string> words = with_help_spelt_out({argv + 1, argv + argc});
+  check_command_name({"run", "view", "check", "compare", "methods", "examples", "verify", "help"}, words);
   try {
-    app.parse(argc, argv);
+    std::reverse(words.begin(), words.end());  // as CLI11 takes them
+    app.parse(words);
+  } catch (const CLI::ExtrasError&) {
+    throw InputError({"trajet"}, unknown_option(app));
   } catch (const CLI::Success& success) {  // --help, --version
     return app.exit(success);
   } catch (const CLI::ParseError& error) {

@@ -10,13 +10,13 @@
 #include "output_names.hpp"
 #include "plot_file.hpp"
 #include "run_monitor.hpp"
+#include "scene_source.hpp"
 #include "summary.hpp"
 #include "terminal.hpp"
 #include "trajet/io/csv_writer.hpp"
 #include "trajet/io/gltf.hpp"
 #include "trajet/io/output_file.hpp"
 #include "trajet/io/report_json.hpp"
-#include "trajet/io/scene_file.hpp"
 #include "trajet/portable.hpp"
 #include "trajet/scene/world.hpp"
 #include "trajet/sim/observer_list.hpp"
@@ -68,7 +68,7 @@ int run_command(const RunArguments& arguments) {
   if (!arguments.html.empty() && !page_unavailable().empty()) throw FileError(page_unavailable());
   std::optional<PlotFile> plot;
   if (!arguments.plot.empty()) plot.emplace(arguments.plot);
-  Scene scene = read_scene(arguments.scene);
+  Scene scene = read_named_scene(arguments.scene);
   apply(arguments.overrides, scene);
   // A wrong scene must not cost the user an earlier report: files are opened behind these lines.
   const World world = make_world(scene);

@@ -12,8 +12,8 @@
 #include <iterator>
 
 #include "run_monitor.hpp"
+#include "scene_source.hpp"
 #include "trajet/io/report_json.hpp"
-#include "trajet/io/scene_file.hpp"
 #include "trajet/portable.hpp"
 #include "trajet/sim/observer_list.hpp"
 #include "trajet/sim/run.hpp"
@@ -28,7 +28,7 @@ std::string text_of(const std::string& path) {
 }
 
 ViewPage make_view_page(const ViewArguments& arguments, const PageOptions& options) {
-  Scene scene = read_scene(arguments.scene);
+  Scene scene = read_named_scene(arguments.scene);
   apply(arguments.overrides, scene);
   check(scene);
 

@@ -1,5 +1,6 @@
 #include "trajet/event/event_watch.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -19,6 +20,9 @@ std::vector<int> read_components(const Program& program) {
     if (is_read[static_cast<std::size_t>(slot)]) components.push_back(slot - 1);
   return components;
 }
+
+/// A rate so much smaller than it was, or than those it is made of, is what rounding leaves of one that was stopped.
+constexpr double kStopped = 1e-12;
 
 /// The sign of all of the numbers; 0 where they have several or are not known.
 int definite_sign(const Interval& values) { return values.lower() > 0.0 ? 1 : values.upper() < 0.0 ? -1 : 0; }
@@ -97,8 +101,6 @@ double EventWatch::rate_at(double t, const double* q, const double* rate) {
 }
 
 void EventWatch::turn(double t, const double* before, const double* rate_before, const double* q, const double* rate) {
-  // a rate that small is what rounding leaves of one that was stopped
-  constexpr double kStopped = 1e-12;
   const double came = rate_at(t, before, rate_before);
   const double goes = rate_at(t, q, rate);
   has_turned_ = sign_ == 0 && last_.found && came != 0.0 && goes / came <= kStopped;
@@ -107,7 +109,10 @@ void EventWatch::turn(double t, const double* before, const double* rate_before,
 }
 
 void EventWatch::forget_unless_rising(double t, const double* q, const double* rate) {
-  if (!next_.found || rate_at(t, q, rate) > 0.0) return;
+  if (!next_.found) return;
+  double largest = 0.0;
+  for (const int i : inputs_) largest = std::max(largest, std::abs(rate[i]));
+  if (rate_at(t, q, rate) > kStopped * largest) return;
   next_ = {};
   sign_ = -1;
 }

@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include "formula_text.hpp"
+#include "scene_keys.hpp"
 #include "trajet/law/program_builder.hpp"
 #include "trajet/portable.hpp"
 #include "trajet/rigid/orientation.hpp"
@@ -38,10 +39,27 @@ void keep_dimension(const Measure& before, NamedExpression& parameter, Scene& sc
     parameter.value = Expression::quantity(*number, before.dimension, parameter.where);
 }
 
+std::string without_blanks_around(std::string text) {
+  text.erase(0, text.find_first_not_of(" \t"));
+  text.erase(text.find_last_not_of(" \t") + 1);
+  return text;
+}
+
 void set_parameter(const std::string& assignment, Scene& scene) {
   const std::size_t equals = assignment.find('=');
   if (equals == std::string::npos) throw InputError({"--set"}, "NAME=VALUE expected, got '" + assignment + "'");
-  const std::string name = assignment.substr(0, equals);
+  const std::string name = without_blanks_around(assignment.substr(0, equals));
+  const std::string_view value = std::string_view(assignment).substr(equals + 1);
+  if (name.find('.') != std::string::npos) {
+    const SourceLocation where{"--set " + name};
+    const detail::SceneKey key = detail::find_key(scene, name, where);
+    detail::FormulaReader formulas = formulas_of(scene);
+    Expression formula = formulas.read(value, where, key.dimension);
+    formulas.read_tables(formula);
+    scene.tables = formulas.tables();
+    key.set(std::move(formula));
+    return;
+  }
   const auto parameter = ranges::find(scene.parameters, name, &NamedExpression::name);
   if (parameter == scene.parameters.end()) {
     std::vector<std::string_view> known;
@@ -50,7 +68,6 @@ void set_parameter(const std::string& assignment, Scene& scene) {
   }
   const Measure before = parameter_measures(scene).find(name)->second;
   detail::FormulaReader formulas = formulas_of(scene);
-  const std::string_view value = std::string_view(assignment).substr(equals + 1);
   parameter->where = {"--set " + name};
   parameter->value = formulas.read(value, parameter->where, std::nullopt);
   formulas.read_tables(parameter->value);

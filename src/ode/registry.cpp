@@ -118,6 +118,11 @@ MethodInfo row(std::string_view name, Aliases aliases, int order, int dense_orde
   return {name, std::move(aliases), order, dense_order, control, known_as, summary, make, max_order, find_unsuitable};
 }
 
+bool equals_without_case(std::string_view a, std::string_view b) {
+  const auto lower = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; };
+  return ranges::equal(a, b, {}, lower, lower);
+}
+
 }  // namespace
 
 std::span<const MethodInfo> methods() {
@@ -129,9 +134,11 @@ std::span<const MethodInfo> methods() {
       runge_kutta<Rk4Tableau>("rk4", {"SEDRK4t0"}, "notes: Runge-Kutta 4", "Kutta's classical method"),
       runge_kutta<Rk4ThreeEighthsTableau>("rk4-3/8", {}, "Kutta's 3/8 rule",
                                           "smaller errors than the classical method"),
-      runge_kutta<Bs32Tableau>("bs32", {"ode23"}, "MATLAB: ode23", "Bogacki and Shampine's pair 3(2)"),
-      runge_kutta<Dopri5Tableau>("dopri5", {"ode45"}, "MATLAB: ode45", "Dormand and Prince's pair 5(4)"),
-      runge_kutta<Dop853Tableau>("dop853", {}, "", "Dormand and Prince's method 8(5,3)"),
+      runge_kutta<Bs32Tableau>("bs32", {"ode23", "RK23"}, "MATLAB: ode23, SciPy: RK23",
+                               "Bogacki and Shampine's pair 3(2)"),
+      runge_kutta<Dopri5Tableau>("dopri5", {"ode45", "RK45"}, "MATLAB: ode45, SciPy: RK45",
+                                 "Dormand and Prince's pair 5(4)"),
+      runge_kutta<Dop853Tableau>("dop853", {}, "SciPy: DOP853", "Dormand and Prince's method 8(5,3)"),
       row("series", {}, kSeriesOrder, kSeriesOrder, StepControl::fixed, "notes: series of a chosen order",
           "exact derivatives; [method] order", make_series, SeriesStepper<SystemExpansion<>>::kMaxOrder),
       row("taylor", {}, 0, 0, StepControl::adaptive, "notes: Taylor series",
@@ -168,11 +175,23 @@ std::span<const MethodInfo> methods() {
 }
 
 const MethodInfo* find_method(std::string_view name) {
-  const auto goes_by = [name](const MethodInfo& method) {
-    return method.name == name || ranges::find(method.aliases, name) != method.aliases.end();
+  const auto is_name = [name](std::string_view other) { return equals_without_case(other, name); };
+  const auto goes_by = [&](const MethodInfo& method) {
+    return is_name(method.name) || ranges::any_of(method.aliases, is_name);
   };
   const auto found = ranges::find_if(methods(), goes_by);
   return found == methods().end() ? nullptr : &*found;
+}
+
+const MethodInfo* find_nearest_method(std::string_view foreign_name) {
+  struct StandIn {
+    std::string_view foreign;
+    std::string_view ours;
+  };
+  constexpr StandIn kStandIns[] = {{"Radau", "rodas5p"}, {"LSODA", "bdf"}, {"ode78", "dop853"}, {"ode89", "dop853"}};
+  for (const StandIn& stand_in : kStandIns)
+    if (equals_without_case(stand_in.foreign, foreign_name)) return find_method(stand_in.ours);
+  return nullptr;
 }
 
 }  // namespace trajet

@@ -13,8 +13,13 @@ namespace {
 
 constexpr double kDefaultTolerance = 1e-12;
 
-const MethodInfo* find_scene_method(const MethodOptions& method) {
+const MethodInfo* find_scene_method(const MethodOptions& method, std::vector<std::string>& warnings) {
   if (const MethodInfo* found = find_method(method.name)) return found;
+  if (const MethodInfo* nearest = find_nearest_method(method.name)) {
+    warnings.push_back("method '" + method.name + "' is not among ours: '" + std::string(nearest->name) +
+                       "' is the nearest and taken for it");
+    return nearest;
+  }
   std::vector<std::string_view> known;
   for (const MethodInfo& info : methods()) {
     known.push_back(info.name);
@@ -63,7 +68,7 @@ ComponentOrigin origin(const Scene& scene, const World& world, int group, int co
 }  // namespace
 
 void set_method(const MethodOptions& method, const SceneNumbers& numbers, World& world) {
-  world.method = find_scene_method(method);
+  world.method = find_scene_method(method, world.warnings);
   check_order(method, *world.method);
   StepOptions& options = world.step_options;
   options.rtol = method.rtol ? numbers.not_negative(*method.rtol, "rtol") : kDefaultTolerance;

@@ -76,6 +76,7 @@ class ComparisonRun {
 
   const MethodInfo& method(const std::string& name, const SourceLocation& where) const {
     const MethodInfo* found = find_method(name);
+    if (found == nullptr) found = find_nearest_method(name);
     if (found == nullptr) {
       MethodOptions unknown;
       unknown.name = name;

@@ -56,21 +56,15 @@ class Room {
     const double sign = side % 2 == 0 ? 1.0 : -1.0;
     const int axis = side / 2;
     const Vector3 center = sign * R_WB_.col(axis);
-    const Vector3 u = R_WB_.col((axis + 1) % 3), v = R_WB_.col((axis + 2) % 3);
-    const auto add = [&](const std::string& suffix, const std::string& lines) {
-      scene += "[[obstacle]]\nname = \"w" + std::to_string(side) + suffix +
+    const Vector3 up = R_WB_.col((axis + 1) % 3);
+    const auto add = [&](const std::string& lines) {
+      scene += "[[obstacle]]\nname = \"w" + std::to_string(side) +
                "\"\non_hit = \"bounce\"\nrestitution = " + number(restitution_) + "\nshape = \"" + lines;
     };
-    if (walls == "plane")
-      add("", "plane\"\npoint = " + vector_text(center) + "\nnormal = " + vector_text(-center) + "\n");
+    if (walls == "plane") add("plane\"\npoint = " + vector_text(center) + "\nnormal = " + vector_text(-center) + "\n");
     if (walls == "rectangle")
-      add("", "rectangle\"\ncenter = " + vector_text(center) + "\nnormal = " + vector_text(-center) +
-                  "\nup = " + vector_text(u) + "\nsize = [2, 2]\n");
-    if (walls == "triangle")
-      for (const double half : {1.0, -1.0})
-        add(half > 0.0 ? "a" : "b", "triangle\"\npoints = [" + vector_text(center - u - v) + ", " +
-                                        vector_text(center + half * (u - v)) + ", " + vector_text(center + u + v) +
-                                        "]\n");
+      add("rectangle\"\ncenter = " + vector_text(center) + "\nnormal = " + vector_text(-center) +
+          "\nup = " + vector_text(up) + "\nsize = [2, 2]\n");
   }
 
   std::mt19937 random_;
@@ -102,8 +96,8 @@ class Watcher : public RunObserver {
   double energy_ = 0.0;
 };
 
-void check_rooms(const std::string& walls, bool has_ball, unsigned count) {
-  for (unsigned seed = 1; seed <= count; ++seed) {
+void check_rooms(const std::string& walls, bool has_ball) {
+  for (unsigned seed = 1; seed <= 400; ++seed) {
     Room room(seed, has_ball);
     Watcher watcher(room);
     const RunResult result = run_text(room.text(walls), &watcher);
@@ -113,11 +107,10 @@ void check_rooms(const std::string& walls, bool has_ball, unsigned count) {
   }
 }
 
-TEST(ClosedRooms, KeepAPointBetweenPlanes) { check_rooms("plane", false, 400); }
-TEST(ClosedRooms, KeepAPointBetweenRectangles) { check_rooms("rectangle", false, 400); }
-TEST(ClosedRooms, KeepAPointBetweenTriangles) { check_rooms("triangle", false, 400); }
-TEST(ClosedRooms, KeepABallBetweenPlanes) { check_rooms("plane", true, 400); }
-TEST(ClosedRooms, KeepABallBetweenRectangles) { check_rooms("rectangle", true, 400); }
+TEST(ClosedRooms, KeepAPointBetweenPlanes) { check_rooms("plane", false); }
+TEST(ClosedRooms, KeepAPointBetweenRectangles) { check_rooms("rectangle", false); }
+TEST(ClosedRooms, KeepABallBetweenPlanes) { check_rooms("plane", true); }
+TEST(ClosedRooms, KeepABallBetweenRectangles) { check_rooms("rectangle", true); }
 
 }  // namespace
 }  // namespace trajet::test

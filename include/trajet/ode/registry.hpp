@@ -40,7 +40,11 @@ struct MethodInfo {
 /// All methods, in the order in which `trajet methods` prints them.
 std::span<const MethodInfo> methods();
 
-/// The method of that name or alias, or nullptr.
+/// The method of that name or alias, or nullptr. Capital letters make no difference.
 const MethodInfo* find_method(std::string_view name);
+
+/// Of a method that other programs have and trajet has not (SciPy's Radau and LSODA, MATLAB's ode78 and ode89), the
+/// nearest one, or nullptr.
+const MethodInfo* find_nearest_method(std::string_view foreign_name);
 
 }  // namespace trajet

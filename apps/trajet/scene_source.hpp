@@ -1,0 +1,13 @@
+#pragma once
+
+#include <string>
+
+#include "trajet/scene/scene.hpp"
+
+namespace trajet {
+
+/// The scene that the command line names: a file, `-` for standard input, or else a built-in scene by its name.
+/// Throws FileError where there is none, InputError at what is wrong in it.
+Scene read_named_scene(const std::string& name);
+
+}  // namespace trajet
