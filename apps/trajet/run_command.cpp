@@ -92,7 +92,7 @@ int run_command(const RunArguments& arguments) {
 
   if (csv) csv->finish();
   if (json) {
-    json->write(report_json(result));
+    write_report_json(result, [&](std::string_view part) { json->write(part); });
     json->finish();
   }
   if (html) {
