@@ -92,13 +92,17 @@ int run_command(const RunArguments& arguments) {
 
   if (csv) csv->finish();
   if (json) {
-    json->write(report_json(result));
+    write_report_json(result, [&](std::string_view part) { json->write(part); });
     json->finish();
   }
   if (html) {
-    const std::string page = page_html({{motion, report_json(result)}}, {.scene_text = text_of(arguments.scene)});
-    warn_of_large_page(page);
-    html->write(page);
+    const auto report = [&](const auto& write) { write_report_json(result, write); };
+    std::size_t size = 0;
+    write_page({{motion, report}}, {.scene_text = text_of(arguments.scene)}, [&](std::string_view part) {
+      size += part.size();
+      html->write(part);
+    });
+    warn_of_large_page(size);
     html->finish();
   }
   if (glb) {

@@ -40,7 +40,7 @@ ViewPage make_view_page(const ViewArguments& arguments, const PageOptions& optio
     ObserverList observers({&motion, &monitor});
     const RunResult result = run(variant, &observers);
     if (result.status == RunStatus::failed) fmt::print(stderr, "error: {}: {}\n", result.method, result.failure);
-    runs.push_back({motion, report_json(result)});
+    runs.push_back({motion, [text = report_json(result)](const auto& write) { write(text); }});
     return result.status;
   };
   for (const std::string& way : arguments.orientations) orientation_way(way, {"--orientations"});
@@ -59,14 +59,14 @@ ViewPage make_view_page(const ViewArguments& arguments, const PageOptions& optio
   PageOptions with_text = options;
   with_text.scene_text = text_of(arguments.scene);
   page.html = page_html(runs, with_text);
-  warn_of_large_page(page.html);
+  warn_of_large_page(page.html.size());
   return page;
 }
 
-void warn_of_large_page(const std::string& html) {
+void warn_of_large_page(std::size_t bytes) {
   constexpr double kMegabyte = 1e6;
   constexpr double kLarge = 50.0 * kMegabyte;
-  const auto size = static_cast<double>(html.size());
+  const auto size = static_cast<double>(bytes);
   if (size > kLarge)
     fmt::print(stderr,
                "warning: the page has {:.0f} MB, which a browser may be slow to show: it holds every step of the run\n",

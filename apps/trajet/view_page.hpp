@@ -20,7 +20,7 @@ std::string text_of(const std::string& path);
 ViewPage make_view_page(const ViewArguments& arguments, const PageOptions& options);
 
 /// Tells the user of the size of a page with which a browser will have trouble.
-void warn_of_large_page(const std::string& html);
+void warn_of_large_page(std::size_t bytes);
 
 /// Opens a page in the user's browser, if the system knows one; whether it could.
 bool open_in_browser(const std::string& address);

@@ -1,7 +1,5 @@
 #include "trajet/io/gltf.hpp"
 
-#include <tiny_gltf.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -12,6 +10,7 @@
 #include "gltf_keys.hpp"
 #include "gltf_records.hpp"
 #include "gltf_shapes.hpp"
+#include "tiny_gltf.hpp"
 #include "trajet/error.hpp"
 #include "trajet/portable.hpp"
 #include "trajet/version.hpp"

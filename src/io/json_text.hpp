@@ -1,7 +1,9 @@
 #pragma once
 
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <string_view>
 
 namespace trajet::detail {
 
@@ -9,5 +11,44 @@ using Json = nlohmann::ordered_json;
 
 /// JSON as a person would lay it out: vectors and matrices on one line, everything else one line per member.
 std::string json_text(const Json& json);
+
+/// Writes one object in that layout, member by member, long arrays element by element: the text is handed on in parts
+/// and is never whole in memory.
+class JsonObjectWriter {
+ public:
+  using Sink = std::function<void(std::string_view)>;
+
+  /// Texts are handed on when they have grown to this many bytes.
+  static constexpr std::size_t kPartSize = 1 << 16;
+
+  /// `write` outlives the writer.
+  explicit JsonObjectWriter(const Sink& write) : write_(write) {}
+
+  void member(std::string_view key, const Json& value);
+
+  /// An array of `object(item)` for each of the items; these are objects that are not empty.
+  template <class Items, class Object>
+  void array(std::string_view key, const Items& items, const Object& object) {
+    begin_member(key);
+    const char* separator = "[";
+    for (const auto& item : items) {
+      add_item(separator, object(item));
+      separator = ",";
+    }
+    text_ += items.empty() ? "[]" : "\n  ]";
+  }
+
+  /// Closes the object. Nothing may follow.
+  void finish();
+
+ private:
+  void begin_member(std::string_view key);
+  void add_item(const char* separator, const Json& item);
+  void hand_on_if_long();
+
+  const Sink& write_;
+  std::string text_;
+  bool is_empty_ = true;
+};
 
 }  // namespace trajet::detail

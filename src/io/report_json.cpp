@@ -67,36 +67,42 @@ Json object(const BodyState& state) {
 }
 
 template <class T>
-Json array(const std::vector<T>& items) {
-  Json json = Json::array();
-  for (const T& item : items) json.push_back(object(item));
-  return json;
+void write_array(detail::JsonObjectWriter& writer, std::string_view key, const std::vector<T>& items) {
+  writer.array(key, items, [](const T& item) { return object(item); });
 }
 
 }  // namespace
 
+void write_report_json(const RunResult& result, const std::function<void(std::string_view)>& write) {
+  detail::JsonObjectWriter writer(write);
+  writer.member("trajet", kVersion);
+  writer.member("scene", result.scene);
+  writer.member("title", result.title);
+  writer.member("method", result.method);
+  writer.member("status", name(result.status));
+  if (result.status == RunStatus::failed) writer.member("failure", result.failure);
+  writer.member("start_time", result.start_time);
+  writer.member("end_time", result.end_time);
+  writer.member("parameters", object(result.parameters));
+  write_array(writer, "impacts", result.impacts);
+  write_array(writer, "events", result.events);
+  write_array(writer, "final", result.final.bodies);
+  writer.member("states", object(result.final.states));
+  writer.member("warnings", result.warnings);
+  Json statistics = {{"steps", result.statistics.steps},
+                     {"rejected_steps", result.statistics.rejected_steps},
+                     {"law_evaluations", result.statistics.law_evaluations},
+                     {"contact_searches", result.statistics.contact_searches},
+                     {"wall_seconds", result.statistics.wall_seconds}};
+  if (result.statistics.proposed_step > 0.0) statistics["proposed_step"] = result.statistics.proposed_step;
+  writer.member("statistics", statistics);
+  writer.finish();
+}
+
 std::string report_json(const RunResult& result) {
-  Json json = {{"trajet", kVersion},
-               {"scene", result.scene},
-               {"title", result.title},
-               {"method", result.method},
-               {"status", name(result.status)}};
-  if (result.status == RunStatus::failed) json["failure"] = result.failure;
-  json["start_time"] = result.start_time;
-  json["end_time"] = result.end_time;
-  json["parameters"] = object(result.parameters);
-  json["impacts"] = array(result.impacts);
-  json["events"] = array(result.events);
-  json["final"] = array(result.final.bodies);
-  json["states"] = object(result.final.states);
-  json["warnings"] = result.warnings;
-  json["statistics"] = {{"steps", result.statistics.steps},
-                        {"rejected_steps", result.statistics.rejected_steps},
-                        {"law_evaluations", result.statistics.law_evaluations},
-                        {"contact_searches", result.statistics.contact_searches},
-                        {"wall_seconds", result.statistics.wall_seconds}};
-  if (result.statistics.proposed_step > 0.0) json["statistics"]["proposed_step"] = result.statistics.proposed_step;
-  return detail::json_text(json);
+  std::string text;
+  write_report_json(result, [&](std::string_view part) { text += part; });
+  return text;
 }
 
 }  // namespace trajet

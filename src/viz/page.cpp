@@ -8,28 +8,25 @@ namespace trajet {
 
 namespace {
 
-using Json = nlohmann::ordered_json;
+using Sink = std::function<void(std::string_view)>;
 
-/// JSON that can stand inside an HTML script element: `<` occurs in strings only, where it may be escaped.
-std::string for_script(const Json& json) {
-  std::string text;
-  for (const char c : json.dump(-1, ' ', false, Json::error_handler_t::replace))
-    if (c == '<')
-      text += "\\u003c";
-    else
-      text += c;
-  return text;
-}
-
-std::string fill_template(Json data, const PageOptions& options) {
+/// The page around the members of its data that `write_members` writes.
+template <class WriteMembers>
+void fill_template(const PageOptions& options, const Sink& write, const WriteMembers& write_members) {
   if (!page_unavailable().empty()) throw FileError(page_unavailable());
-  data["trajet"] = kVersion;
-  data["live"] = options.live_version;
   constexpr std::string_view kMark = "id=\"trajet-data\">";
   const std::string_view page = detail::kPageTemplate;
   const std::size_t begin = page.find(kMark) + kMark.size();
   const std::size_t end = page.find("</script>", begin);
-  return std::string(page.substr(0, begin)) + for_script(data) + std::string(page.substr(end));
+  write(page.substr(0, begin));
+  detail::ScriptText text(write);
+  text.add("{");
+  write_members(text);
+  text.add(R"(,"trajet":)");
+  text.add_value(kVersion);
+  text.add(R"(,"live":)" + std::to_string(options.live_version) + "}");
+  text.finish();
+  write(page.substr(end));
 }
 
 }  // namespace
@@ -39,20 +36,38 @@ std::string page_unavailable() {
   return "this trajet was built without the page: " + std::string(detail::kPageMissing);
 }
 
-std::string page_html(const std::vector<PageRun>& runs, const PageOptions& options) {
-  Json data = {{"scene_text", options.scene_text}, {"runs", Json::array()}};
-  for (const PageRun& run : runs) data["runs"].push_back(detail::page_data(run));
-  return fill_template(std::move(data), options);
+void write_page(const std::vector<PageRun>& runs, const PageOptions& options, const Sink& write) {
+  fill_template(options, write, [&](detail::ScriptText& text) {
+    text.add(R"("scene_text":)");
+    text.add_value(options.scene_text);
+    text.add(R"(,"runs":[)");
+    for (std::size_t i = 0; i < runs.size(); ++i) {
+      if (i > 0) text.add(",");
+      detail::write_page_data(runs[i], text);
+    }
+    text.add("]");
+  });
 }
 
-std::string error_page_html(const InputError& error, const std::string& text, const PageOptions& options) {
-  return fill_template({{"error",
-                         {{"file", error.where().file.str()},
-                          {"line", error.where().line},
-                          {"column", error.where().column},
-                          {"message", error.message()},
-                          {"text", text}}}},
-                       options);
+std::string page_html(const std::vector<PageRun>& runs, const PageOptions& options) {
+  std::string html;
+  write_page(runs, options, [&](std::string_view part) { html += part; });
+  return html;
+}
+
+std::string error_page_html(const InputError& error, const std::string& scene_text, const PageOptions& options) {
+  std::string html;
+  fill_template(
+      options, [&](std::string_view part) { html += part; },
+      [&](detail::ScriptText& text) {
+        text.add(R"("error":)");
+        text.add_value({{"file", error.where().file.str()},
+                        {"line", error.where().line},
+                        {"column", error.where().column},
+                        {"message", error.message()},
+                        {"text", scene_text}});
+      });
+  return html;
 }
 
 }  // namespace trajet

@@ -76,24 +76,34 @@ int significant_degree(const Segment<>& segment, int component, double duration)
   return degree;
 }
 
-/// All pieces of a group as numbers, one after the other: from, to, the Segment's t0, the degrees of all components,
-/// six to a number as its digits to the base 256, the first the least, and then the coefficients of each component, (t
-/// - t0)^0 first.
-std::string packed(const std::vector<MotionRecord::Piece>& pieces) {
-  std::vector<double> numbers;
-  for (const MotionRecord::Piece& piece : pieces) {
-    const Segment<>& segment = piece.segment;
-    numbers.insert(numbers.end(), {piece.from, piece.to, segment.t0()});
-    std::vector<int> degrees;
-    for (int i = 0; i < segment.dimension(); ++i) {
-      degrees.push_back(significant_degree(segment, i, std::abs(segment.duration())));
-      if (i % kDegreesOfNumber == 0) numbers.push_back(0.0);
-      numbers.back() += degrees.back() * std::pow(kDegreeBase, i % kDegreesOfNumber);
-    }
-    for (int i = 0; i < segment.dimension(); ++i)
-      for (int k = 0; k <= degrees[static_cast<std::size_t>(i)]; ++k) numbers.push_back(segment.coefficients()(i, k));
+/// Appends a piece as numbers: from, to, the Segment's t0, the degrees of all components, six to a number as its digits
+/// to the base 256, the first the least, and then the coefficients of each component, (t - t0)^0 first.
+void append(std::vector<double>& numbers, const MotionRecord::Piece& piece) {
+  const Segment<>& segment = piece.segment;
+  numbers.insert(numbers.end(), {piece.from, piece.to, segment.t0()});
+  std::vector<int> degrees;
+  for (int i = 0; i < segment.dimension(); ++i) {
+    degrees.push_back(significant_degree(segment, i, std::abs(segment.duration())));
+    if (i % kDegreesOfNumber == 0) numbers.push_back(0.0);
+    numbers.back() += degrees.back() * std::pow(kDegreeBase, i % kDegreesOfNumber);
   }
-  return base64({reinterpret_cast<const std::uint8_t*>(numbers.data()), numbers.size() * sizeof(double)});
+  for (int i = 0; i < segment.dimension(); ++i)
+    for (int k = 0; k <= degrees[static_cast<std::size_t>(i)]; ++k) numbers.push_back(segment.coefficients()(i, k));
+}
+
+/// Writes all pieces of a group, one after the other, as base64.
+void write_packed(const std::vector<MotionRecord::Piece>& pieces, ScriptText& text) {
+  constexpr std::size_t kWhole = 3;  // so many doubles have a whole number of base64's groups of three bytes
+  std::vector<double> numbers;
+  const auto write = [&](std::size_t count) {
+    text.add(base64({reinterpret_cast<const std::uint8_t*>(numbers.data()), count * sizeof(double)}));
+    numbers.erase(numbers.begin(), numbers.begin() + static_cast<std::ptrdiff_t>(count));
+  };
+  for (const MotionRecord::Piece& piece : pieces) {
+    append(numbers, piece);
+    write(numbers.size() - numbers.size() % kWhole);
+  }
+  write(numbers.size());
 }
 
 /// What a program's output is worth where its formula needs neither time nor state.
@@ -185,24 +195,36 @@ Json orientation_way(const World& world) {
 
 }  // namespace
 
-Json page_data(const PageRun& run) {
+void write_page_data(const PageRun& run, ScriptText& text) {
   const World& world = run.motion.world();
-  Json data = {{"report", Json::parse(run.report)}, {"orientation", orientation_way(world)},
-               {"bodies", Json::array()},           {"states", Json::array()},
-               {"obstacles", Json::array()},        {"groups", Json::array()}};
+  text.add(R"({"report":)");
+  run.report([&](std::string_view part) { text.add_laid_out(part); });
+  Json bodies = Json::array(), states = Json::array(), obstacles = Json::array();
   for (const World::Body& body : world.bodies)
-    data["bodies"].push_back(body_data(body, world.groups[static_cast<std::size_t>(body.group)]));
+    bodies.push_back(body_data(body, world.groups[static_cast<std::size_t>(body.group)]));
   for (const World::ExtraState& state : world.states)
-    data["states"].push_back({{"name", state.name}, {"group", state.group}, {"component", state.offset}});
+    states.push_back({{"name", state.name}, {"group", state.group}, {"component", state.offset}});
   for (const World::Obstacle& obstacle : world.obstacles) {
     Json shape = std::visit([](const auto& each) { return object(each); }, obstacle.shape);
-    data["obstacles"].push_back({{"name", obstacle.name}, {"shape", std::move(shape)}});
-    if (obstacle.color) data["obstacles"].back()["color"] = color_text(*obstacle.color);
+    obstacles.push_back({{"name", obstacle.name}, {"shape", std::move(shape)}});
+    if (obstacle.color) obstacles.back()["color"] = color_text(*obstacle.color);
   }
-  for (std::size_t g = 0; g < world.groups.size(); ++g)
-    data["groups"].push_back(
-        {{"dimension", world.groups[g].start.size()}, {"pieces", packed(run.motion.pieces(static_cast<int>(g)))}});
-  return data;
+  const auto add_member = [&](std::string_view key, const Json& value) {
+    text.add(",\"" + std::string(key) + "\":");
+    text.add_value(value);
+  };
+  add_member("orientation", orientation_way(world));
+  add_member("bodies", bodies);
+  add_member("states", states);
+  add_member("obstacles", obstacles);
+  text.add(R"(,"groups":[)");
+  for (std::size_t g = 0; g < world.groups.size(); ++g) {
+    text.add((g == 0 ? R"({"dimension":)" : R"(,{"dimension":)") + std::to_string(world.groups[g].start.size()));
+    text.add(R"(,"pieces":")");
+    write_packed(run.motion.pieces(static_cast<int>(g)), text);
+    text.add(R"("})");
+  }
+  text.add("]}");
 }
 
 }  // namespace trajet::detail

@@ -1,12 +1,11 @@
 #pragma once
 
-#include <nlohmann/json.hpp>
-
+#include "script_text.hpp"
 #include "trajet/viz/page.hpp"
 
 namespace trajet::detail {
 
-/// What the page knows of a run: docs/formats/page.md.
-nlohmann::ordered_json page_data(const PageRun& run);
+/// Writes what the page knows of a run: docs/formats/page.md.
+void write_page_data(const PageRun& run, ScriptText& text);
 
 }  // namespace trajet::detail

@@ -42,6 +42,7 @@ LIBRARIES = {
     "nlohmann": {"io", "viz"},
     "fmt": {"io", "viz", "apps"},
     "assimp": {"io"},
+    "dlfcn.h": {"io"},
     "CLI": {"apps"},
 }
 

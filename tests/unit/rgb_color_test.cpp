@@ -29,7 +29,7 @@ TEST(RgbColor, IsInTheDataOfThePageWhereTheSceneHasOne) {
       "\"o\"\n"
       "shape = \"sphere\"\ncenter = [5, 0, 0]\nradius = 1\ncolor = \"navy\"\n",
       &motion);
-  const std::string page = page_html({{motion, "{}"}});
+  const std::string page = page_html({{motion, [](const auto& write) { write("{}"); }}});
   EXPECT_NE(page.find("\"color\":\"#ff8000\""), std::string::npos);
   EXPECT_NE(page.find("\"color\":\"#000080\""), std::string::npos);
   const std::size_t first = page.find("\"color\":\"#"), second = page.find("\"color\":\"#", first + 1);

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <functional>
 #include <string>
+#include <string_view>
 
 #include "trajet/sim/run_result.hpp"
 
@@ -8,6 +10,11 @@ namespace trajet {
 
 /// The JSON report of a run: docs/formats/report.md. Numbers read back as the same doubles; what is not finite is
 /// `null`.
+///
+/// `write` gets the text part by part: the memory that is needed beside the result does not grow with it.
+void write_report_json(const RunResult& result, const std::function<void(std::string_view)>& write);
+
+/// The same in one text.
 std::string report_json(const RunResult& result);
 
 }  // namespace trajet

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <functional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "trajet/error.hpp"
@@ -11,7 +13,8 @@ namespace trajet {
 /// One run on the page. The first is the motion itself, further ones are shown beside it as ghosts.
 struct PageRun {
   const MotionRecord& motion;
-  std::string report;  ///< its JSON report: docs/formats/report.md
+  /// Writes its JSON report, part by part: docs/formats/report.md.
+  std::function<void(const std::function<void(std::string_view)>& write)> report;
 };
 
 struct PageOptions {
@@ -25,6 +28,12 @@ struct PageOptions {
 std::string page_unavailable();
 
 /// A self-contained HTML page that plays the runs: docs/formats/page.md. Throws FileError where this build has no page.
+///
+/// `write` gets the page part by part: the memory that is needed beside the runs does not grow with them.
+void write_page(const std::vector<PageRun>& runs, const PageOptions& options,
+                const std::function<void(std::string_view)>& write);
+
+/// The same in one text.
 std::string page_html(const std::vector<PageRun>& runs, const PageOptions& options = {});
 
 /// The same page, showing what is wrong with a scene, `text`, at its place. Throws like `page_html`.
