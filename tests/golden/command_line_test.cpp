@@ -1,0 +1,76 @@
+// What people type: names of scenes and methods as they know them, keys, mistakes.
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "program.hpp"
+
+namespace trajet {
+namespace {
+
+TEST(CommandLine, ABuiltInSceneRunsByItsName) {
+  const ProgramResult named = run_trajet({"run", "rifle_shot", "--json", "-"});
+  EXPECT_EQ(named.exit_code, 0) << named.err;
+  EXPECT_EQ(nlohmann::json::parse(named.out)["status"], "stopped");
+  const ProgramResult mistyped = run_trajet({"run", "rifle_sht"});
+  EXPECT_EQ(mistyped.exit_code, 5);
+  EXPECT_NE(mistyped.err.find("did you mean 'rifle_shot'?"), std::string::npos) << mistyped.err;
+}
+
+TEST(CommandLine, HelpIsThereUnderTheNamesThatPeopleTry) {
+  const ProgramResult help = run_trajet({"help", "run"});
+  EXPECT_EQ(help.exit_code, 0);
+  EXPECT_EQ(help.out, run_trajet({"run", "--help"}).out);
+  EXPECT_EQ(run_trajet({"help"}).out, run_trajet({"--help"}).out);
+  EXPECT_EQ(run_trajet({"-V"}).out, run_trajet({"--version"}).out);
+}
+
+TEST(CommandLine, AnUnknownOptionIsNamedWithTheNearest) {
+  const ProgramResult result = run_trajet({"run", "rifle_shot", "--methd", "taylor"});
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_NE(result.err.find("unknown option '--methd'"), std::string::npos) << result.err;
+  EXPECT_NE(result.err.find("did you mean '--method'?"), std::string::npos) << result.err;
+  const ProgramResult more = run_trajet({"run", "rifle_shot", "twice"});
+  EXPECT_EQ(more.exit_code, 2);
+  EXPECT_NE(more.err.find("'twice'"), std::string::npos) << more.err;
+}
+
+TEST(CommandLine, MethodsGoByOtherProgramsNamesAndInAnyCase) {
+  const auto method_of = [](const std::string& name) {
+    const ProgramResult result = run_trajet({"run", "rifle_shot", "--method", name, "--json", "-"});
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    return nlohmann::json::parse(result.out)["method"]["name"].get<std::string>();
+  };
+  EXPECT_EQ(method_of("RK45"), "dopri5");
+  EXPECT_EQ(method_of("rk23"), "bs32");
+  EXPECT_EQ(method_of("DOP853"), "dop853");
+  EXPECT_EQ(method_of("Taylor"), "taylor");
+  const ProgramResult radau = run_trajet({"run", "rifle_shot", "--method", "Radau", "--quiet"});
+  EXPECT_EQ(radau.exit_code, 0);
+  EXPECT_NE(radau.err.find("'rodas5p' is the nearest"), std::string::npos) << radau.err;
+}
+
+TEST(CommandLine, SetReachesKeysOfBodiesAndObstacles) {
+  const TemporaryFolder folder;
+  const std::string scene =
+      folder.write("s.toml",
+                   "[time]\nend = 1\n[[body]]\nname = \"b\"\nposition = [0, 0, 1]\n"
+                   "acceleration = [0, 0, -9.81]\n[[obstacle]]\nname = \"floor\"\nshape = \"plane\"\n"
+                   "point = [0, 0, 0]\nnormal = [0, 0, 1]\non_hit = \"bounce\"\n");
+  const ProgramResult result =
+      run_trajet({"run", scene, "--set", "b.velocity=[3, 0, 0]", "--set", " floor.restitution = 0.5", "--json", "-"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const nlohmann::json impact = nlohmann::json::parse(result.out)["impacts"][0];
+  EXPECT_EQ(impact["velocity_before"][0], 3.0);
+  EXPECT_NEAR(impact["velocity_after"][2].get<double>(), -0.5 * impact["velocity_before"][2].get<double>(), 1e-12);
+  const ProgramResult wrong = run_trajet({"run", scene, "--set", "b.velocty=[1, 0, 0]"});
+  EXPECT_EQ(wrong.exit_code, 2);
+  EXPECT_NE(wrong.err.find("did you mean 'b.velocity'?"), std::string::npos) << wrong.err;
+  const ProgramResult unit = run_trajet({"run", scene, "--set", "floor.restitution=2 m"});
+  EXPECT_EQ(unit.exit_code, 2);
+}
+
+}  // namespace
+}  // namespace trajet
