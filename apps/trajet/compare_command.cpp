@@ -168,7 +168,9 @@ int exit_code(const Comparison& comparison) {
 int compare_command(const CompareArguments& arguments) {
   if (arguments.json == "-" && arguments.csv == "-")
     throw InputError({"--csv"}, "only one of --json and --csv can go to standard output");
-  check_outputs(arguments.scene, {{"--json", arguments.json}, {"--csv", arguments.csv}, {"--plot", arguments.plot}});
+  check_outputs(
+      arguments.scene,
+      {{"--json", arguments.json, {".json"}}, {"--csv", arguments.csv, {".csv"}}, {"--plot", arguments.plot, {}}});
   std::optional<PlotFile> plot;
   if (!arguments.plot.empty()) plot.emplace(arguments.plot);
   Scene scene = read_scene(arguments.scene);

@@ -60,11 +60,11 @@ int run_command(const RunArguments& arguments) {
   const auto stdout_count = ranges::count(to_stdout, true);
   if (stdout_count > 1)
     throw InputError({"--csv"}, "only one of --json, --csv, --html and --glb can go to standard output");
-  check_outputs(arguments.scene, {{"--json", arguments.json},
-                                  {"--csv", arguments.csv},
-                                  {"--html", arguments.html},
-                                  {"--glb", arguments.glb},
-                                  {"--plot", arguments.plot}});
+  check_outputs(arguments.scene, {{"--json", arguments.json, {".json"}},
+                                  {"--csv", arguments.csv, {".csv"}},
+                                  {"--html", arguments.html, {".html", ".htm"}},
+                                  {"--glb", arguments.glb, {".glb"}},
+                                  {"--plot", arguments.plot, {}}});
   if (!arguments.html.empty() && !page_unavailable().empty()) throw FileError(page_unavailable());
   std::optional<PlotFile> plot;
   if (!arguments.plot.empty()) plot.emplace(arguments.plot);
