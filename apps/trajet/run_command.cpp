@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "commands.hpp"
+#include "message.hpp"
 #include "output_names.hpp"
 #include "plot_file.hpp"
 #include "run_monitor.hpp"
@@ -111,8 +112,8 @@ int run_command(const RunArguments& arguments) {
     out.write(summary(result, wants_color(stdout)));
     out.finish();
   }
-  for (const std::string& warning : result.warnings) fmt::print(stderr, "warning: {}\n", warning);
-  if (result.status == RunStatus::failed) fmt::print(stderr, "error: {}\n", result.failure);
+  for (const std::string& warning : result.warnings) tell("warning: {}\n", warning);
+  if (result.status == RunStatus::failed) tell("error: {}\n", result.failure);
   return exit_code(result.status);
 }
 
