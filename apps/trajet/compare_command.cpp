@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "commands.hpp"
+#include "message.hpp"
 #include "output_names.hpp"
 #include "plot_file.hpp"
 #include "run_monitor.hpp"
@@ -103,7 +104,7 @@ std::string setting(const ComparisonRow& row) {
 /// The rows without result, where nobody sees the table.
 void warn_of_failures(const Comparison& comparison) {
   for (const ComparisonRow& row : comparison.rows)
-    if (!row.succeeded()) fmt::print(stderr, "warning: {}, {}: no result: {}\n", name(row), setting(row), row.failure);
+    if (!row.succeeded()) tell("warning: {}, {}: no result: {}\n", name(row), setting(row), row.failure);
 }
 
 std::string table(const Comparison& comparison, bool color) {
@@ -168,7 +169,9 @@ int exit_code(const Comparison& comparison) {
 int compare_command(const CompareArguments& arguments) {
   if (arguments.json == "-" && arguments.csv == "-")
     throw InputError({"--csv"}, "only one of --json and --csv can go to standard output");
-  check_outputs(arguments.scene, {{"--json", arguments.json}, {"--csv", arguments.csv}, {"--plot", arguments.plot}});
+  check_outputs(
+      arguments.scene,
+      {{"--json", arguments.json, {".json"}}, {"--csv", arguments.csv, {".csv"}}, {"--plot", arguments.plot, {}}});
   std::optional<PlotFile> plot;
   if (!arguments.plot.empty()) plot.emplace(arguments.plot);
   Scene scene = read_named_scene(arguments.scene);
@@ -208,7 +211,7 @@ int compare_command(const CompareArguments& arguments) {
     plot->open();
     plot->write(compare_figure(comparison, world, monitor.motions(), shown));
   }
-  for (const std::string& warning : comparison.warnings) fmt::print(stderr, "warning: {}\n", warning);
+  for (const std::string& warning : comparison.warnings) tell("warning: {}\n", warning);
   return exit_code(comparison);
 }
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "commands.hpp"
+#include "message.hpp"
 #include "trajet/error.hpp"
 #include "trajet/text/decimal_number.hpp"
 #include "trajet/text/did_you_mean.hpp"
@@ -184,19 +185,20 @@ int run_program(int argc, char** argv) {
 }  // namespace trajet
 
 int main(int argc, char** argv) {
+  trajet::keep_standard_error();
   try {
     return trajet::run_program(argc, argv);
   } catch (const trajet::InputError& error) {
-    fmt::print(stderr, "{}\n", error.what());
+    trajet::tell("{}\n", error.what());
     // A fault whose place is an option or the program's name stands in the command line, not in the scene.
     const trajet::SourceLocation& place = error.where();
     const bool is_program = place.file.str() == "trajet" && place.line == 0;
     return is_program || place.file.str().starts_with("--") ? trajet::kWrongCommandLine : trajet::kWrongScene;
   } catch (const trajet::FileError& error) {
-    fmt::print(stderr, "{}{}\n", error.has_place() ? "" : "error: ", error.what());
+    trajet::tell("{}{}\n", error.has_place() ? "" : "error: ", error.what());
     return trajet::kFileFailed;
   } catch (const std::exception& error) {
-    fmt::print(stderr, "error: the program failed: {}\n", error.what());
+    trajet::tell("error: the program failed: {}\n", error.what());
     return trajet::kNumbersFailed;
   }
 }

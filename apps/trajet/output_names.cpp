@@ -4,6 +4,7 @@
 #include <system_error>
 
 #include "trajet/error.hpp"
+#include "trajet/io/output_file.hpp"
 
 namespace trajet {
 
@@ -16,11 +17,21 @@ bool is_written(const NamedOutput& output) { return !output.path.empty() && outp
 /// Whether two names are those of one file, which may not exist yet. A name that cannot be looked up is nobody else's:
 /// opening it tells what is wrong with it.
 bool is_same_file(const fs::path& a, const fs::path& b) {
+  if (is_stream(a.string())) return false;
   std::error_code unknown;
-  if (fs::is_other(a, unknown)) return false;
   if (fs::exists(a, unknown) && fs::exists(b, unknown)) return fs::equivalent(a, b, unknown);
   const fs::path place = fs::weakly_canonical(a, unknown);
   return !unknown && place == fs::weakly_canonical(b, unknown);
+}
+
+void check_ending(const NamedOutput& output) {
+  if (output.endings.empty() || is_stream(output.path)) return;
+  for (const std::string_view ending : output.endings)
+    if (output.path.size() > ending.size() && output.path.ends_with(ending)) return;
+  std::string expected(output.endings.front());
+  for (std::size_t i = 1; i < output.endings.size(); ++i) expected += " or " + std::string(output.endings[i]);
+  throw InputError({std::string(output.option)},
+                   "a file name that ends in " + expected + " expected, got '" + output.path + "'");
 }
 
 }  // namespace
@@ -36,6 +47,8 @@ void check_outputs(const std::string& scene, const std::vector<NamedOutput>& out
         throw InputError(where, "'" + output->path + "' is the file of " + std::string(other->option) +
                                     " already: name another one");
   }
+  for (const NamedOutput& output : outputs)
+    if (is_written(output)) check_ending(output);
 }
 
 }  // namespace trajet

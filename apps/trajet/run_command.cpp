@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "commands.hpp"
+#include "message.hpp"
 #include "output_names.hpp"
 #include "plot_file.hpp"
 #include "run_monitor.hpp"
@@ -60,11 +61,11 @@ int run_command(const RunArguments& arguments) {
   const auto stdout_count = ranges::count(to_stdout, true);
   if (stdout_count > 1)
     throw InputError({"--csv"}, "only one of --json, --csv, --html and --glb can go to standard output");
-  check_outputs(arguments.scene, {{"--json", arguments.json},
-                                  {"--csv", arguments.csv},
-                                  {"--html", arguments.html},
-                                  {"--glb", arguments.glb},
-                                  {"--plot", arguments.plot}});
+  check_outputs(arguments.scene, {{"--json", arguments.json, {".json"}},
+                                  {"--csv", arguments.csv, {".csv"}},
+                                  {"--html", arguments.html, {".html", ".htm"}},
+                                  {"--glb", arguments.glb, {".glb"}},
+                                  {"--plot", arguments.plot, {}}});
   if (!arguments.html.empty() && !page_unavailable().empty()) throw FileError(page_unavailable());
   std::optional<PlotFile> plot;
   if (!arguments.plot.empty()) plot.emplace(arguments.plot);
@@ -115,8 +116,8 @@ int run_command(const RunArguments& arguments) {
     out.write(summary(result, wants_color(stdout)));
     out.finish();
   }
-  for (const std::string& warning : result.warnings) fmt::print(stderr, "warning: {}\n", warning);
-  if (result.status == RunStatus::failed) fmt::print(stderr, "error: {}\n", result.failure);
+  for (const std::string& warning : result.warnings) tell("warning: {}\n", warning);
+  if (result.status == RunStatus::failed) tell("error: {}\n", result.failure);
   return exit_code(result.status);
 }
 

@@ -6,6 +6,7 @@
 #include <atomic>
 #include <utility>
 
+#include "message.hpp"
 #include "terminal.hpp"
 #include "trajet/scene/world.hpp"
 
@@ -52,7 +53,7 @@ RunMonitor::RunMonitor() : shows_progress_(is_terminal(stderr)) {
 RunMonitor::~RunMonitor() { clear(); }
 
 void RunMonitor::clear() {
-  if (has_shown_) fmt::print(stderr, "\r\033[K");
+  if (has_shown_) tell("\r\033[K");
   has_shown_ = false;
 }
 
@@ -83,7 +84,7 @@ void RunMonitor::show(double time, Clock::time_point now) {
   if (done > 0.0) line += fmt::format(", {} left", format_duration(elapsed * (1.0 / done - 1.0)));
   // a line that wraps could not be taken back
   const auto room = static_cast<std::size_t>(terminal_width(stderr) - 1);
-  fmt::print(stderr, "\r{:.{}}\033[K", line, room);
+  tell("\r{:.{}}\033[K", line, room);
   has_shown_ = true;
   next_show_ = now + kShowInterval;
 }

@@ -26,7 +26,7 @@ int view_command(const ViewArguments& arguments) {
     if (!arguments.out.empty()) throw InputError({"--watch"}, "the page is served, not written: leave out --out");
     serve_live_page(arguments);
   }
-  check_outputs(arguments.scene, {{"--out", arguments.out}});
+  check_outputs(arguments.scene, {{"--out", arguments.out, {".html", ".htm"}}});
   const ViewPage page = make_view_page(arguments, {});
   std::string path = arguments.out;
   if (path.empty()) path = make_temporary_folder() / std::filesystem::path(arguments.scene).stem().concat(".html");

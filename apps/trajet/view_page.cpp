@@ -11,6 +11,7 @@
 #include <fstream>
 #include <iterator>
 
+#include "message.hpp"
 #include "run_monitor.hpp"
 #include "scene_source.hpp"
 #include "trajet/io/report_json.hpp"
@@ -39,7 +40,7 @@ ViewPage make_view_page(const ViewArguments& arguments, const PageOptions& optio
     RunMonitor monitor;
     ObserverList observers({&motion, &monitor});
     const RunResult result = run(variant, &observers);
-    if (result.status == RunStatus::failed) fmt::print(stderr, "error: {}: {}\n", result.method, result.failure);
+    if (result.status == RunStatus::failed) tell("error: {}: {}\n", result.method, result.failure);
     runs.push_back({motion, [text = report_json(result)](const auto& write) { write(text); }});
     return result.status;
   };
@@ -68,9 +69,8 @@ void warn_of_large_page(std::size_t bytes) {
   constexpr double kLarge = 50.0 * kMegabyte;
   const auto size = static_cast<double>(bytes);
   if (size > kLarge)
-    fmt::print(stderr,
-               "warning: the page has {:.0f} MB, which a browser may be slow to show: it holds every step of the run\n",
-               size / kMegabyte);
+    tell("warning: the page has {:.0f} MB, which a browser may be slow to show: it holds every step of the run\n",
+         size / kMegabyte);
 }
 
 bool open_in_browser(const std::string& address) {

@@ -216,6 +216,25 @@ TEST(ExitCodes, TellWhatWasWrong) {
   }
 }
 
+TEST(ExitCodes, AreThoseOfTheContractWhereNoMessageCanBeWritten) {
+  const TemporaryFolder folder;
+  const std::string wrong = folder.write("wrong.toml", "[time]\nend = \"1 kg\"\n");
+  const std::string failing =
+      folder.write("failing.toml", "[time]\nend = 2\n[[state]]\nname = \"y\"\nvalue = 1\nrate = \"y^2\"\n");
+  const std::string json = folder.file("r.json");
+  for (const std::string closed : {" 2>&-", " 2>/dev/full"}) {
+    const auto exit_code = [&](const std::string& arguments) {
+      const int status = std::system((TRAJET_PROGRAM " " + arguments + " >/dev/null" + closed).c_str());
+      return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    };
+    EXPECT_EQ(exit_code("run " + folder.file("nosuch.toml")), 5) << closed;
+    EXPECT_EQ(exit_code("run " + wrong), 3) << closed;
+    EXPECT_EQ(exit_code("nosuch"), 2) << closed;
+    EXPECT_EQ(exit_code("run " + failing + " --json " + json), 4) << closed;
+    EXPECT_EQ(Json::parse(read_text(json))["status"], "failed") << closed;
+  }
+}
+
 TEST(ExitCodes, AWrongSceneLeavesEarlierFilesAlone) {
   const TemporaryFolder folder;
   const std::string wrong =

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <string>
+#include <utility>
+
+namespace trajet {
+
+/// Writes to standard error. Where nobody can hear it (a full disk, a closed stream) the program goes on: its exit code
+/// tells what its message cannot.
+template <typename... Values>
+void tell(fmt::format_string<Values...> format, Values&&... values) {
+  const std::string text = fmt::format(format, std::forward<Values>(values)...);
+  std::fwrite(text.data(), 1, text.size(), stderr);
+}
+
+/// Where standard error is closed, points it to nowhere: no file that is opened later takes its number and gets the
+/// messages.
+void keep_standard_error();
+
+}  // namespace trajet
