@@ -153,7 +153,7 @@ def triangles(n, distance, side=0.1):
 
 
 def far_triangles(bench):
-    steps = 2000
+    steps = 20_000
 
     def cost_per_step(n):
         method = '[method]\nname = "rk4"\nstep = 0.01\n'
