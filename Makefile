@@ -6,7 +6,7 @@ CONFIGURE := cmake -DTRAJET_WERROR=$(WERROR) >/dev/null --preset
 BUILD     := cmake --build --parallel $(JOBS) --preset
 DEMO      := build/demo
 
-.PHONY: help setup build demo docs test asan clang tidy bench format
+.PHONY: help setup build demo docs test asan clang tidy bench scaling format
 .DEFAULT_GOAL := help
 
 help: ## list these targets
@@ -55,6 +55,11 @@ bench: setup ## build and run the benchmarks, beside Boost.odeint, GSL, SUNDIALS
 	@$(CONFIGURE) release -DTRAJET_BUILD_BENCH=ON
 	@$(BUILD) release --target trajet_bench
 	@build/release/trajet_bench
+
+scaling: setup ## measure how the costs of the program grow: bench/README.md
+	@$(CONFIGURE) release
+	@$(BUILD) release --target trajet_cli
+	@python3 bench/scaling.py build/release/trajet
 
 format: ## format every C++ file with clang-format
 	@scripts/setup format
