@@ -90,7 +90,8 @@ void check_names(const Scene& scene) {
     add_usable_in_laws(law_names, parameter.name, "parameter", parameter.where, has_bodies);
   for (const StateDefinition& state : scene.states)
     add_usable_in_laws(law_names, state.name, "state", state.where, has_bodies);
-  for (const BodyDefinition& body : scene.bodies) add_usable_in_laws(law_names, body.name, "body", body.where, has_bodies);
+  for (const BodyDefinition& body : scene.bodies)
+    add_usable_in_laws(law_names, body.name, "body", body.where, has_bodies);
 
   Names solid_names;
   for (const BodyDefinition& body : scene.bodies) add(solid_names, body.name, "body", body.where);

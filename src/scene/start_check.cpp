@@ -1,9 +1,13 @@
 #include "start_check.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
 #include <variant>
 
 #include "trajet/geom/distance.hpp"
 #include "trajet/geom/triangle_surface.hpp"
+#include "trajet/text/shortest_text.hpp"
 
 namespace trajet {
 namespace {
@@ -35,6 +39,16 @@ void check_starts(const World& world) {
       if (gap(obstacle.shape, position) - radius < -open)
         throw InputError(body.where, "body '" + body.name + "' starts inside obstacle '" + obstacle.name + "'");
   }
+}
+
+void warn_of_coarse_times(World& world) {
+  constexpr double kCoarse = 1e-10;  // of the run
+  const double latest = std::max(std::abs(world.start), std::abs(world.end));
+  const double spacing = std::nextafter(latest, std::numeric_limits<double>::infinity()) - latest;
+  const double duration = std::abs(world.end - world.start);
+  if (duration > 0.0 && spacing > kCoarse * duration)
+    world.warnings.push_back("times near " + shortest_text(latest) + " s are numbers " + shortest_text(spacing) +
+                             " s apart: what is over sooner, such as low bounces, is lost; let the run start at 0");
 }
 
 }  // namespace trajet

@@ -8,4 +8,7 @@ namespace trajet {
 /// much the run itself decides, which knows where the body goes.
 void check_starts(const World& world);
 
+/// Warns where the times of a run are so large that what is short beside it is lost between two doubles.
+void warn_of_coarse_times(World& world);
+
 }  // namespace trajet

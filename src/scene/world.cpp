@@ -23,7 +23,6 @@
 #include "trajet/law/program_builder.hpp"
 #include "trajet/portable.hpp"
 #include "trajet/scene/scene_units.hpp"
-#include "trajet/text/shortest_text.hpp"
 
 namespace trajet {
 namespace {
@@ -81,7 +80,7 @@ class WorldBuilder {
     const double duration = std::abs(world_.end - world_.start);
     if (world_.end < world_.start && !scene_.obstacles.empty())
       throw InputError(time.end->where(), "the end is before the start: impacts have no meaning backward in time");
-    warn_of_coarse_times(duration);
+    warn_of_coarse_times(world_);
     if (!std::isfinite(duration)) throw InputError(time.end->where(), "start and end are too far apart for a double");
     if (time.sample) {
       world_.sample = numbers_.positive(*time.sample, "sample spacing");
@@ -91,14 +90,6 @@ class WorldBuilder {
       world_.sample =
           duration > 0.0 ? std::max(duration / kDefaultSampleCount, std::numeric_limits<double>::min()) : 1.0;
     }
-  }
-
-  void warn_of_coarse_times(double duration) {
-    const double latest = std::max(std::abs(world_.start), std::abs(world_.end));
-    const double spacing = std::nextafter(latest, std::numeric_limits<double>::infinity()) - latest;
-    if (duration > 0.0 && spacing > 1e-10 * duration)
-      world_.warnings.push_back("times near " + shortest_text(latest) + " s are numbers " + shortest_text(spacing) +
-                                " s apart: what is over sooner, such as low bounces, is lost; let the run start at 0");
   }
 
   double restitution_of(const ObstacleDefinition& obstacle) {

@@ -226,14 +226,16 @@ void Course::find_next() {
   next_.index = next.index;
 }
 
-Course::Watch& Course::watch(int event) {
+const Course::Watch& Course::watch(int event) const {
   return *ranges::find_if(
       watches_, [&](const Watch& watch) { return watch.kind == Crossing::Kind::event && watch.index == event; });
 }
 
-const EventWatch::Crossing& Course::event_crossing(int event) const {
-  return const_cast<Course*>(this)->watch(event).watch.next();
+Course::Watch& Course::watch(int event) {
+  return watches_[static_cast<std::size_t>(&std::as_const(*this).watch(event) - watches_.data())];
 }
+
+const EventWatch::Crossing& Course::event_crossing(int event) const { return watch(event).watch.next(); }
 
 void Course::take_event(int event) { watch(event).watch.take(); }
 

@@ -41,7 +41,7 @@ TEST(CommandLine, MethodsGoByOtherProgramsNamesAndInAnyCase) {
   const auto method_of = [](const std::string& name) {
     const ProgramResult result = run_trajet({"run", "rifle_shot", "--method", name, "--json", "-"});
     EXPECT_EQ(result.exit_code, 0) << result.err;
-    return nlohmann::json::parse(result.out)["method"]["name"].get<std::string>();
+    return nlohmann::json::parse(result.out)["method"].get<std::string>();
   };
   EXPECT_EQ(method_of("RK45"), "dopri5");
   EXPECT_EQ(method_of("rk23"), "bs32");
