@@ -122,8 +122,11 @@ void LastingContacts::record_until(double time) {
   }
 }
 
-void LastingContacts::record(const RestingContact& contact, ImpactKind kind, double time, const Eigen::VectorXd& q) {
-  recorder_.impact(describe(world_, contact, kind, time, q));
+void LastingContacts::record(const RestingContact& contact, ImpactKind kind, double time, const Eigen::VectorXd& q,
+                             double time_error_bound) {
+  Impact impact = describe(world_, contact, kind, time, q);
+  impact.time_error_bound = time_error_bound;
+  recorder_.impact(impact);
 }
 
 bool LastingContacts::goes_on(const RestingContact& contact, int next, const Eigen::VectorXd& q) const {
@@ -176,9 +179,9 @@ void LastingContacts::rest_on_continuation(Instant& instant, const RestingContac
   instant.memories.emplace_back(*found, ContactMemory{.side = is_behind ? -1 : 1, .contact_time = instant.time()});
 }
 
-void LastingContacts::leave(Instant& instant, int index, bool is_past_edge) {
+void LastingContacts::leave(Instant& instant, int index, bool is_past_edge, double time_error_bound) {
   const RestingContact contact = instant.contacts[static_cast<std::size_t>(index)];
-  record(contact, ImpactKind::leave, instant.time(), instant.q);
+  record(contact, ImpactKind::leave, instant.time(), instant.q, time_error_bound);
   ContactMemory& memory = release(instant, index);
   if (is_past_edge) {
     // beside a thin surface a point takes the side to which it falls: it does not go through

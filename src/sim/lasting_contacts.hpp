@@ -30,7 +30,8 @@ class LastingContacts {
   /// Ends the contacts that an event's `set` has broken.
   void release_after_set(Instant& instant);
   /// Ends the contact of that index by itself: what it would have to pull, or an edge that the body has come to.
-  void leave(Instant& instant, int contact, bool is_past_edge);
+  /// `time_error_bound`: of its end, s.
+  void leave(Instant& instant, int contact, bool is_past_edge, double time_error_bound);
   /// Where the face of a contact goes on without a step ahead of the body, the pair with the obstacle on which it does.
   std::optional<PairId> continuation(const RestingContact& left, const Eigen::VectorXd& q) const;
   /// Whether a face on which the body slides goes on without a step on that obstacle, whose edge is nothing to hit.
@@ -42,7 +43,8 @@ class LastingContacts {
   /// Ends a contact; its pair remembers it.
   ContactMemory& release(Instant& instant, int contact);
   void end(Instant& instant, int contact);
-  void record(const RestingContact& contact, ImpactKind kind, double time, const Eigen::VectorXd& q);
+  void record(const RestingContact& contact, ImpactKind kind, double time, const Eigen::VectorXd& q,
+              double time_error_bound = 0.0);
   /// Whether the face of a contact goes on on another obstacle ahead of the body.
   bool goes_on(const RestingContact& contact, int next, const Eigen::VectorXd& q) const;
   /// Where a body slides off a face and another one goes on from there without a step, its contact with that one

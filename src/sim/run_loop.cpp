@@ -259,7 +259,8 @@ void RunLoop::handle_contact_end(int index) {
   const int body = instant.contacts[static_cast<std::size_t>(crossing.index)].body;
   recorder_.sample(time, body);
   recorder_.sample(time, body);
-  lasting_contacts_.leave(instant, crossing.index, crossing.kind == Crossing::Kind::past_edge);
+  lasting_contacts_.leave(instant, crossing.index, crossing.kind == Crossing::Kind::past_edge,
+                          crossing.error_bound + std::abs(time - crossing.time));
   go_on(index, instant);
   advance(index);
 }

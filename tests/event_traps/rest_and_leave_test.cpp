@@ -102,6 +102,8 @@ TEST(RestAndLeave, EndsWhereTheForcePointsAway) {
             << method << " " << lift.text << " at " << height;
         // the law is evaluated at rounded times and its terms cancel
         EXPECT_NEAR(result.impacts[1].time, expected, 1e-12 + 1e-12 * expected) << method << " " << lift.text;
+        EXPECT_GT(result.impacts[1].time_error_bound, 0.0);
+        EXPECT_LT(result.impacts[1].time_error_bound, 1e-11);
         EXPECT_GT(final_of(result, "b").position.z(), height);
       }
   }
