@@ -27,7 +27,6 @@ using std::ranges::set_union;
 using std::ranges::sort;
 using std::ranges::stable_sort;
 using std::ranges::transform;
-using std::ranges::unique;
 }  // namespace ranges
 
 /// The number type of more digits than double: 64 bits of mantissa on x86, 113 where it is made of software.

@@ -65,8 +65,7 @@ std::string error_unit(const Comparison& comparison) {
     units.emplace_back(part == ".r" ? "m" : "m/s");
   }
   ranges::sort(units);
-  const auto repeated = ranges::unique(units);
-  units.erase(repeated.begin(), repeated.end());
+  units.erase(std::unique(units.begin(), units.end()), units.end());
   return fmt::format("{}", fmt::join(units, ", "));
 }
 
