@@ -10,6 +10,7 @@
 #include "trajet/law/time_branches.hpp"
 
 namespace trajet {
+
 TimeSwitches::TimeSwitches(const Program& law)
     : no_state_(static_cast<std::size_t>(law.input_count)), no_state_enclosed_(no_state_.size()) {
   const std::vector<bool> of_time = find_time_slots(law);

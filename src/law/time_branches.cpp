@@ -1,24 +1,9 @@
 #include "trajet/law/time_branches.hpp"
 
+#include "graph.hpp"
+
 namespace trajet {
 namespace {
-
-int operand_count(Opcode opcode) {
-  switch (opcode) {
-    case Opcode::where:
-    case Opcode::norm:
-      return 3;
-    case Opcode::add:
-    case Opcode::subtract:
-    case Opcode::multiply:
-    case Opcode::divide:
-    case Opcode::power:
-    case Opcode::atan2:
-      return 2;
-    default:
-      return decides_by_difference(opcode) ? 2 : 1;
-  }
-}
 
 /// Of each slot, whether it is made of constants and of what has the property: the time if `time_has`, the results of
 /// instructions where `result_has(opcode)`.
@@ -29,7 +14,7 @@ std::vector<bool> find_slots(const Program& program, bool time_has, ResultHas&& 
   *at(0) = time_has;
   for (const Program::Constant& constant : program.constants) *at(constant.slot) = true;
   for (const Instruction& i : program.instructions) {
-    const int count = operand_count(i.opcode);
+    const int count = detail::operand_count(i.opcode);
     *at(i.result) = result_has(i.opcode) || (*at(i.a) && (count < 2 || *at(i.b)) && (count < 3 || *at(i.c)));
     if (i.opcode == Opcode::sin_cos || i.opcode == Opcode::sinh_cosh) *at(i.b) = *at(i.result);
   }

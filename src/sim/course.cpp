@@ -226,26 +226,22 @@ void Course::find_next() {
   next_.index = next.index;
 }
 
-const Course::Watch& Course::watch(int event) const {
-  return *ranges::find_if(
-      watches_, [&](const Watch& watch) { return watch.kind == Crossing::Kind::event && watch.index == event; });
+std::size_t Course::place_of(int event) const {
+  return static_cast<std::size_t>(ranges::find(group().events, event) - group().events.begin());
 }
 
-Course::Watch& Course::watch(int event) {
-  return watches_[static_cast<std::size_t>(&std::as_const(*this).watch(event) - watches_.data())];
-}
+const EventWatch::Crossing& Course::event_crossing(int event) const { return watches_[place_of(event)].watch.next(); }
 
-const EventWatch::Crossing& Course::event_crossing(int event) const { return watch(event).watch.next(); }
-
-void Course::take_event(int event) { watch(event).watch.take(); }
+void Course::take_event(int event) { watches_[place_of(event)].watch.take(); }
 
 void Course::turn_event(int event, const Instant& instant, const Eigen::VectorXd& rate_before) {
   const double t = instant.time();
-  watch(event).watch.turn(t, instant.before().data(), rate_before.data(), instant.q.data(), rate(t, instant.q).data());
+  watches_[place_of(event)].watch.turn(t, instant.before().data(), rate_before.data(), instant.q.data(),
+                                       rate(t, instant.q).data());
 }
 
 void Course::pass_event(int event) {
-  EventWatch& passed = watch(event).watch;
+  EventWatch& passed = watches_[place_of(event)].watch;
   const double time = passed.next().time;
   passed.pass();
   passed.search(segment_, time);

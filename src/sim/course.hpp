@@ -64,7 +64,7 @@ class Course {
   /// The event has changed the state, which the course has taken: its rate was this before.
   void turn_event(int event, const Instant& instant, const Eigen::VectorXd& rate_before);
   /// Whether the event's own set has turned or stopped what it watches.
-  bool has_turned(int event) const { return watch(event).watch.has_turned(); }
+  bool has_turned(int event) const { return watches_[place_of(event)].watch.has_turned(); }
   /// Goes on from an event that changed nothing.
   void pass_event(int event);
 
@@ -113,8 +113,8 @@ class Course {
   void put_orientations_right();
   /// Replaces the stepper's state by one that means the same.
   void amend_stepper(const Eigen::VectorXd& q);
-  const Watch& watch(int event) const;
-  Watch& watch(int event);
+  /// The place of an event's watch.
+  std::size_t place_of(int event) const;
   void find_next();
 
   const World& world_;

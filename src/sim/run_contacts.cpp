@@ -89,11 +89,11 @@ bool RunLoop::goes_on_from_contact(int index, const Pair& pair, const Impact& im
     height = pull > 0.0 ? speed * speed / (2.0 * pull) : on_segment;
   } else {
     // What the law carries away from the contact that it has just left has not hit: the Segment goes astray.
-    Eigen::VectorXd along = Eigen::VectorXd::Zero(moving.segment().dimension());
-    along.segment<3>(offset) = impact.normal;
-    const double known_to = moving.error_bound_along(along, moving.segment().t1());
-    if (speed * speed > -2.0 * pull * known_to) return false;
-    height = 2.0 * known_to;
+    constexpr double kRoundings = 4.0;
+    const double astray = impact.normal.cwiseAbs().dot(moving.segment().error_bound().segment<3>(offset)) +
+                          kRoundings * kUnitRoundoff * impact.position.norm();
+    if (speed * speed > -2.0 * pull * astray) return false;
+    height = 2.0 * astray;
   }
   if (!encounters_.stay_in_contact(pair.id, moving, height)) return false;
   encounters_.search(pair.id.body, moving, moving.next().time);
