@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <string>
 
@@ -17,6 +18,16 @@ TEST(CommandLine, ABuiltInSceneRunsByItsName) {
   const ProgramResult mistyped = run_trajet({"run", "rifle_sht"});
   EXPECT_EQ(mistyped.exit_code, 5);
   EXPECT_NE(mistyped.err.find("did you mean 'rifle_shot'?"), std::string::npos) << mistyped.err;
+}
+
+TEST(CommandLine, ASceneMayComeFromStandardInput) {
+  const TemporaryFolder folder;
+  const std::string report = folder.file("r.json");
+  const std::string command =
+      std::string("'") + TRAJET_PROGRAM + "' run - --quiet --json '" + report + "' < '" +
+      folder.write("s.toml", "[time]\nend = 2\n[[state]]\nname = \"x\"\nvalue = 1\nrate = 3\n") + "'";
+  ASSERT_EQ(std::system(command.c_str()), 0);
+  EXPECT_EQ(nlohmann::json::parse(read_text(report))["end_time"], 2.0);
 }
 
 TEST(CommandLine, HelpIsThereUnderTheNamesThatPeopleTry) {
