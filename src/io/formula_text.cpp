@@ -4,6 +4,7 @@
 #include <cmath>
 #include <filesystem>
 #include <utility>
+#include <vector>
 
 #include "table_file.hpp"
 #include "trajet/portable.hpp"
@@ -61,6 +62,24 @@ void refuse_decimal_comma(std::string_view text, const SourceLocation& where) {
                                                "." + std::string(text.substr(comma + 1, i - comma - 1)));
 }
 
+/// The parts of "[a, b, c]" between brackets and commas of the outermost level; none where the text is no such list.
+std::vector<std::string_view> parts_of_list(std::string_view text) {
+  const std::size_t begin = text.find_first_not_of(" \t"), end = text.find_last_not_of(" \t");
+  if (begin == std::string_view::npos || text[begin] != '[' || text[end] != ']') return {};
+  std::vector<std::string_view> parts;
+  int depth = 0;
+  std::size_t first = begin + 1;
+  for (std::size_t i = begin; i <= end; ++i) {
+    if (text[i] == '[' || text[i] == '(') ++depth;
+    if (text[i] == ']' || text[i] == ')') --depth;
+    if (depth == 0 && i < end) return {};  // "[…] + […]"
+    if (depth > 1 || (depth == 1 && text[i] != ',')) continue;
+    parts.push_back(text.substr(first, i - first));
+    first = i + 1;
+  }
+  return parts;
+}
+
 }  // namespace
 
 void FormulaReader::add_name(std::string_view name) {
@@ -113,12 +132,29 @@ void FormulaReader::refuse_missing_blank(std::string_view text, const SourceLoca
                      "a blank is missing between number and unit, write \"" + digits + " " + rest + "\"");
 }
 
+std::optional<Expression> FormulaReader::vector_of_quantities(std::string_view text, const SourceLocation& where,
+                                                              std::optional<Dimension> expected) const {
+  const std::vector<std::string_view> parts = parts_of_list(text);
+  const auto is_quantity = [](std::string_view part) { return split_quantity(part).has_value(); };
+  if (parts.size() != 3 || ranges::none_of(parts, is_quantity)) return std::nullopt;
+  const auto component = [&](std::size_t i) {
+    const std::size_t blanks = std::min(parts[i].find_first_not_of(" \t"), parts[i].size());
+    const auto offset = static_cast<std::size_t>(parts[i].data() - text.data()) + blanks;
+    return read(parts[i].substr(blanks), advanced(where, offset), expected);
+  };
+  const Expression x = component(0);  // one after the other: the first fault is the one reported
+  const Expression y = component(1);
+  const Expression z = component(2);
+  return Expression::vector(x, y, z);
+}
+
 Expression FormulaReader::read(std::string_view text, const SourceLocation& where,
                                std::optional<Dimension> expected) const {
   if (const std::optional<QuantityText> quantity = split_quantity(text)) {
     const auto unit_offset = static_cast<std::size_t>(quantity->unit.data() - text.data());
     return this->quantity(*quantity, where, advanced(where, unit_offset), expected);
   }
+  if (std::optional<Expression> vector = vector_of_quantities(text, where, expected)) return *std::move(vector);
   refuse_decimal_comma(text, where);
   refuse_missing_blank(text, where);
   return Expression::parse(text, where, dashed_names_);

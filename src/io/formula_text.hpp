@@ -27,7 +27,8 @@ class FormulaReader {
   /// A parameter, an extra state or a body. Names with `-` must be known before formulas use them.
   void add_name(std::string_view name);
 
-  /// Reads the text of a scalar: a quantity ("500 m/s") or an expression ("v0*cos(theta)").
+  /// Reads the text of a scalar or a vector: a quantity ("500 m/s"), a vector of quantities and expressions
+  /// ("[3 m/s, 0, v0]"), or an expression ("v0*cos(theta)").
   ///
   /// `where` is the place of its first character. A quantity must have the `expected` dimension, if there is one; the
   /// dimensions of expressions are found when all names are known. Throws InputError at the place of the fault.
@@ -41,6 +42,9 @@ class FormulaReader {
 
  private:
   bool is_name(std::string_view text) const;
+  /// A vector in brackets of which at least one component is a quantity; nothing where it is anything else.
+  std::optional<Expression> vector_of_quantities(std::string_view text, const SourceLocation& where,
+                                                 std::optional<Dimension> expected) const;
   Expression quantity(const QuantityText& quantity, const SourceLocation& where, const SourceLocation& where_unit,
                       std::optional<Dimension> expected) const;
   void refuse_missing_blank(std::string_view text, const SourceLocation& where) const;

@@ -49,7 +49,7 @@ void set_parameter(const std::string& assignment, Scene& scene) {
   const std::size_t equals = assignment.find('=');
   if (equals == std::string::npos) throw InputError({"--set"}, "NAME=VALUE expected, got '" + assignment + "'");
   const std::string name = without_blanks_around(assignment.substr(0, equals));
-  const std::string_view value = std::string_view(assignment).substr(equals + 1);
+  const std::string value = without_blanks_around(assignment.substr(equals + 1));
   if (name.find('.') != std::string::npos) {
     const SourceLocation where{"--set " + name};
     const detail::SceneKey key = detail::find_key(scene, name, where);

@@ -177,6 +177,7 @@ TEST(Expression, errors_point_at_the_token) {
       {"ln(a)", 1, "write log(x)"},
       {"if(a > b, a, b)", 1, "write where(c, a, b)"},
       {"a > b ? a : b", 7, "write where(c, a, b)"},
+      {"a**2", 2, "did you mean '^'?"},
       {"|a - b|", 1, "write abs(x), of a vector norm(v)"},
       {"a + v[0]", 6, "vx, vy, vz of v"},
       {"[0, 0, v[2]]", 9, "vx, vy, vz of v"},

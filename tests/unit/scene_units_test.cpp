@@ -93,6 +93,25 @@ TEST(SceneUnits, SetKeepsTheDimensionOfAParameter) {
   EXPECT_EQ(fault_of(kShot, {.parameters = {"theta=0.1 1"}}), "");  // radians are plain numbers
 }
 
+TEST(SceneUnits, AVectorOfQuantitiesIsReadFromSetAndFromTheFile) {
+  const std::string scene = "[parameters]\nspeed = \"2 m/s\"\n[time]\nend = 1\n[[body]]\nname = \"b\"\nvelocity = ";
+  const auto velocity = [&](const std::string& in_file, const std::vector<std::string>& set) {
+    Scene read = parse_scene(scene + in_file + "\n", "");
+    apply({.parameters = set}, read);
+    return test::final_of(run(read), "b").velocity;
+  };
+  EXPECT_EQ(velocity("[0, 0, 0]", {"b.velocity=[3 m/s, 0, 1 ft/s]"}), Vector3(3.0, 0.0, 0.3048));
+  EXPECT_EQ(velocity("[0, 0, 0]", {" b.velocity = [ 36 km/h,max(speed, 1), -speed ] "}), Vector3(10.0, 2.0, -2.0));
+  EXPECT_EQ(velocity("\"[3 m/s, 0, 1 ft/s]\"", {}), Vector3(3.0, 0.0, 0.3048));
+  EXPECT_EQ(velocity("\"[3, 0, 1]*2\"", {}), Vector3(6.0, 0.0, 2.0));
+  EXPECT_EQ(fault_of(scene + "[0, 0, 0]\n", {.parameters = {"b.velocity=[3 m/s, 0, 1 ft]"}}),
+            "--set b.velocity: error: speed [m/s] expected, got length [m]");
+  EXPECT_NE(fault_of(scene + "\"[0, 0, 1 ft]\"\n").find("7:22: error: speed [m/s] expected, got length [m]"),
+            std::string::npos)
+      << fault_of(scene + "\"[0, 0, 1 ft]\"\n");
+  EXPECT_NE(fault_of(scene + "\"[1 m/s, 0]\"\n"), "");
+}
+
 TEST(SceneUnits, SetWithoutAUnitSaysWhichOneIsTaken) {
   const auto warnings = [](const std::string& assignment) {
     Scene scene = parse_scene(kShot, "");
@@ -121,6 +140,8 @@ TEST(SceneUnits, HintsForWhatIsAlmostAQuantity) {
   EXPECT_NE(end("3,5 s").find("2:9: error: a number has a decimal point: write 3.5"), std::string::npos)
       << end("3,5 s");
   EXPECT_NE(end("3,5").find("write 3.5"), std::string::npos) << end("3,5");
+  EXPECT_NE(fault_of("[time]\nend = 1\n[[body]]\nname = \"b\"\nvelocity = [\"3,5 m/s\", 0, 0]").find("write 3.5"),
+            std::string::npos);
   EXPECT_NE(end("3 S").find("; did you mean 's'?"), std::string::npos) << end("3 S");
   EXPECT_NE(end("3s").find("write \"3 s\""), std::string::npos) << end("3s");
   EXPECT_NE(end("0.05°").find("write \"0.05 °\""), std::string::npos) << end("0.05°");
