@@ -103,23 +103,26 @@ class LawReading {
     return result;
   }
 
-  /// All formulas behind a component of the rate, after a colon; nothing where there is none.
+  /// All formulas behind a component of the rate, after a colon; where it has none of its own, as that of a position,
+  /// those of its body.
   std::string describe_all(int component, double t, const Eigen::VectorXd& q) const {
-    std::string text;
-    for (const Formula& formula : group_.formulas)
-      if (component >= formula.first && component < formula.first + formula.size)
-        text += (text.empty() ? ": " : "; ") + describe(formula, t, q);
-    return text;
+    const auto describe_where = [&](const auto& suits) {
+      std::string text;
+      for (const Formula& formula : group_.formulas)
+        if (suits(formula)) text += (text.empty() ? ": " : "; ") + describe(formula, t, q);
+      return text;
+    };
+    const std::string own = describe_where(
+        [&](const Formula& formula) { return component >= formula.first && component < formula.first + formula.size; });
+    if (!own.empty() || is_of_state(component)) return own;
+    return describe_where([owner = body_of(component)](const Formula& formula) { return formula.body == owner; });
   }
 
   /// Of a component of the state.
   std::string name_of(int component) const {
     for (const World::ExtraState& each : world_.states)
-      if (each.group == index_ && each.offset == component) return "state '" + each.name + "'";
-    const auto owner = ranges::find_if(group_.bodies.rbegin(), group_.bodies.rend(), [&](int b) {
-      return world_.bodies[static_cast<std::size_t>(b)].offset <= component;
-    });
-    const World::Body& body = world_.bodies[static_cast<std::size_t>(*owner)];
+      if (is_at(each, component)) return "state '" + each.name + "'";
+    const World::Body& body = world_.bodies[static_cast<std::size_t>(body_of(component))];
     const int part = component - body.offset;
     return std::string(part < 3   ? "the position"
                        : part < 6 ? "the velocity"
@@ -128,13 +131,22 @@ class LawReading {
   }
 
  private:
+  bool is_at(const World::ExtraState& state, int component) const {
+    return state.group == index_ && state.offset == component;
+  }
+  bool is_of_state(int component) const {
+    return ranges::any_of(world_.states, [&](const World::ExtraState& each) { return is_at(each, component); });
+  }
+  /// The body, in World::bodies, to whose state a component belongs.
+  int body_of(int component) const {
+    return *ranges::find_if(group_.bodies.rbegin(), group_.bodies.rend(),
+                            [&](int b) { return world_.bodies[static_cast<std::size_t>(b)].offset <= component; });
+  }
   const World::Body& body(const Formula& formula) const {
     return world_.bodies[static_cast<std::size_t>(formula.body)];
   }
   const World::ExtraState& state(const Formula& formula) const {
-    return *ranges::find_if(world_.states, [&](const World::ExtraState& each) {
-      return each.group == index_ && each.offset == formula.first;
-    });
+    return *ranges::find_if(world_.states, [&](const World::ExtraState& each) { return is_at(each, formula.first); });
   }
 
   static std::string place(const SourceLocation& where) {
@@ -196,6 +208,44 @@ std::optional<std::string> find_hole_ahead(const LawReading& law, const World& w
   return std::nullopt;
 }
 
+/// The component of the state whose rate changes most, beside its size, over a time next to nothing.
+struct Restless {
+  int component = 0;
+  double change = -1.0;  ///< of the rate; 2 where it turns round
+  bool jumps = false;    ///< the change is no smaller in a tenth of the time
+};
+
+Restless find_restless(const LawReading& law, double t, const Eigen::VectorXd& q) {
+  const std::vector<double> rate = law.rate(t, q);
+  const auto size = static_cast<Eigen::Index>(rate.size());
+  const Eigen::VectorXd direction = Eigen::Map<const Eigen::VectorXd>(rate.data(), size);
+  constexpr double kShortest = 1e-15, kLongest = 1e-9, kLonger = 10.0;  // of the time so far
+  constexpr double kJump = 0.01;
+  Restless most;
+  Eigen::ArrayXd last = Eigen::ArrayXd::Zero(size);  // change over the time before
+  for (double part = kShortest; part <= kLongest; part *= kLonger) {
+    const double h = part * (1.0 + std::abs(t));
+    const std::vector<double> behind = law.rate(t - h, q - h * direction), ahead = law.rate(t + h, q + h * direction);
+    for (Eigen::Index i = 0; i < size; ++i) {
+      const auto k = static_cast<std::size_t>(i);
+      const double mean = 0.5 * (std::abs(behind[k]) + std::abs(ahead[k]));
+      const double change = std::abs(ahead[k] - behind[k]);
+      const bool jumps = last[i] >= 0.5 * change && last[i] > kJump * mean;
+      const double relative = mean > 0.0 ? change / mean : 0.0;
+      if (jumps > most.jumps || (jumps == most.jumps && relative > most.change))
+        most = {static_cast<int>(i), relative, jumps};
+      last[i] = change;
+    }
+  }
+  return most;
+}
+
+std::string jump_text(const LawReading& law, const Restless& restless, double t, const Eigen::VectorXd& q) {
+  if (!restless.jumps) return {};
+  return "the rate of " + law.name_of(restless.component) + " jumps near t = " + shortest_text(t) + " s" +
+         law.describe_all(restless.component, t, q);
+}
+
 }  // namespace
 
 std::string describe_failure(const World& world, int group, double t, const Eigen::VectorXd& q) {
@@ -213,7 +263,16 @@ std::string describe_failure(const World& world, int group, double t, const Eige
   if (growth)
     return "the rate of " + law.name_of(growth->component) + " runs to infinity near t = " + shortest_text(t) +
            " s, where the law has a pole" + law.describe_all(growth->component, t, q);
-  return {};
+  const Restless restless = find_restless(law, t, q);
+  const std::string jump = jump_text(law, restless, t, q);
+  if (!jump.empty()) return jump;
+  return "the rate of " + law.name_of(restless.component) + " changes most" +
+         law.describe_all(restless.component, t, q);
+}
+
+std::string describe_jump(const World& world, int group, double t, const Eigen::VectorXd& q) {
+  const LawReading law(world, group);
+  return jump_text(law, find_restless(law, t, q), t, q);
 }
 
 std::string describe_blow_up(const World& world, int group, double t, const Eigen::VectorXd& q) {
