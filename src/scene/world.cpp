@@ -12,6 +12,7 @@
 #include "extended_numbers.hpp"
 #include "law_formulas.hpp"
 #include "law_symbols.hpp"
+#include "never_zero.hpp"
 #include "partition.hpp"
 #include "scene_method.hpp"
 #include "scene_names.hpp"
@@ -271,6 +272,10 @@ class WorldBuilder {
     ProgramBuilder when(input_count);
     when.add_output(when.compile_scalar(definition.when, group_symbols(event.group, when)));
     event.when = when.build();
+    if (never_crosses_zero(event.when))
+      world_.warnings.push_back("event '" + event.name +
+                                "' can never happen: whatever time and state are, its 'when', " +
+                                definition.when.text() + ", does not cross zero");
     ProgramBuilder set(input_count);
     const Symbols symbols = group_symbols(event.group, set);
     for (const NamedExpression& assignment : definition.set) {
