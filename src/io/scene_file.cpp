@@ -141,8 +141,8 @@ class SceneReader {
   }
 
   static MethodOptions read_method(const TableReader& table) {
-    constexpr std::array<std::string_view, 9> kKeys{"name",  "rtol",      "atol",        "step",  "steps",
-                                                    "order", "max_steps", "orientation", "locate"};
+    constexpr std::array<std::string_view, 10> kKeys{"name",  "rtol",      "atol",        "step",        "steps",
+                                                     "order", "max_steps", "max_seconds", "orientation", "locate"};
     constexpr std::array<std::string_view, 3> kLocators{"polynomial", "interpolation", "subdivision"};
     table.check_keys(kKeys);
     MethodOptions method;
@@ -159,6 +159,7 @@ class SceneReader {
     if (order > kMaxOrder) table.fail("order", "an order of at most " + std::to_string(kMaxOrder) + " expected");
     method.order = static_cast<int>(order);
     method.max_steps = table.whole_number("max_steps", 1, method.max_steps);
+    method.max_seconds = table.optional_scalar("max_seconds", kTime);
     std::vector<std::string_view> orientations;
     for (const OrientationInfo& info : orientation_ways()) orientations.push_back(info.name);
     method.orientation_where = table.where("orientation");

@@ -85,6 +85,7 @@ void set_method(const MethodOptions& method, const SceneNumbers& numbers, World&
                      "method '" + std::string(world.method->name) + "' takes fixed steps: give [method] step");
   if (method.max_steps <= 0) throw InputError(method.where, "max_steps must be positive");
   world.max_steps = method.max_steps;
+  if (method.max_seconds) world.max_seconds = numbers.positive(*method.max_seconds, "max_seconds");
   world.locate = method.locate;
 }
 

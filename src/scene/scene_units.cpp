@@ -74,7 +74,8 @@ class UnitCheck {
 
   void run() {
     check(scene_.time.start, kTime);
-    for (const auto* time : {&scene_.time.end, &scene_.time.sample, &scene_.method.step}) check(*time, kTime);
+    for (const auto* time : {&scene_.time.end, &scene_.time.sample, &scene_.method.step, &scene_.method.max_seconds})
+      check(*time, kTime);
     for (const auto* tolerance : {&scene_.method.rtol, &scene_.method.atol}) check(*tolerance, kDimensionless);
     check(scene_.method.steps, kTime);
     for (const BodyDefinition& body : scene_.bodies) check_body(body);

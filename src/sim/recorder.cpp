@@ -21,6 +21,7 @@ Recorder::Recorder(const World& world, const Courses& courses, RunObserver& obse
       courses_(courses),
       observer_(observer),
       wishes_(observer.wishes()),
+      time_limit_(world.max_seconds),
       direction_(world.end < world.start ? -1.0 : 1.0) {
   observer_.begin(world_);
   result_.scene = world.scene;
@@ -42,7 +43,7 @@ bool Recorder::sample_until(double& time) {
     if (direction_ * (time - next) < 0.0) return true;
     ++next_sample_;
     sample(next);
-    if (next_sample_ % kSamplesBetweenQuestions == 0 && observer_.interrupted(next)) {
+    if (next_sample_ % kSamplesBetweenQuestions == 0 && is_interrupted(next)) {
       time = next;
       return false;
     }
@@ -51,8 +52,18 @@ bool Recorder::sample_until(double& time) {
 
 void Recorder::sample(double time) {
   if (!wishes_.samples) return;
-  last_sample_ = time;
   observer_.sample(sample_at(time, std::nullopt));
+  last_sample_ = time;
+}
+
+double Recorder::reached_time() const {
+  const double sampled = last_sample_.value_or(world_.start);
+  return direction_ * (sampled - end_time()) > 0.0 ? sampled : end_time();
+}
+
+void Recorder::hand_on_no_more() {
+  wishes_.motion = false;
+  overlaps_.reset();
 }
 
 void Recorder::sample(double time, int body) {

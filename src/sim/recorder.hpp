@@ -8,6 +8,7 @@
 
 #include "body_overlaps.hpp"
 #include "course.hpp"
+#include "time_limit.hpp"
 #include "trajet/scene/world.hpp"
 #include "trajet/sim/run_observer.hpp"
 
@@ -21,12 +22,15 @@ class Recorder {
   /// All outlive the recorder.
   Recorder(const World& world, const Courses& courses, RunObserver& observer);
 
-  /// Whether the observer wants the run to end.
-  bool is_interrupted(double time) { return observer_.interrupted(time); }
+  /// Whether the observer wants the run to end, or its time is over.
+  bool is_interrupted(double time) { return observer_.interrupted(time) || is_out_of_time(); }
+  bool is_out_of_time() const { return time_limit_.is_over(); }
 
-  /// The regular samples behind the last one, up to `time`. False if the observer wants the run to end; then `time` is
-  /// how far it has come.
+  /// The regular samples behind the last one, up to `time`. False if the run is interrupted; then `time` is how far it
+  /// has come.
   bool sample_until(double& time);
+  /// From now on observers hear of no motion: there is no memory to keep it.
+  void hand_on_no_more();
   /// A sample of all bodies, or of one.
   void sample(double time);
   void sample(double time, int body);
@@ -43,6 +47,8 @@ class Recorder {
 
   /// How far the run has come, and what has become of it.
   double end_time() const { return result_.end_time; }
+  /// Of the end so far and the last sample, the later: samples run ahead of what happens next.
+  double reached_time() const;
   void set_end_time(double time) { result_.end_time = time; }
   RunStatus status() const { return result_.status; }
   void end(RunStatus status, const std::string& failure = {});
@@ -59,6 +65,7 @@ class Recorder {
   const Courses& courses_;
   RunObserver& observer_;
   RunWishes wishes_;
+  TimeLimit time_limit_;
   double direction_;
   RunResult result_;
   std::optional<BodyOverlaps> overlaps_;  // where bodies could

@@ -1,6 +1,7 @@
 #include "trajet/sim/run.hpp"
 
 #include <chrono>
+#include <new>
 
 #include "run_loop.hpp"
 #include "trajet/scene/world.hpp"
@@ -13,6 +14,14 @@ class NoObserver : public RunObserver {
  public:
   RunWishes wishes() const override { return {}; }
 };
+
+/// Lets the program give memory back, as it would have been asked to by `operator new`: Eigen allocates without that.
+void ask_for_memory() {
+  try {
+    if (const std::new_handler handler = std::get_new_handler()) handler();
+  } catch (const std::bad_alloc&) {  // it has none
+  }
+}
 
 }  // namespace
 
@@ -36,7 +45,15 @@ Run::~Run() = default;
 Run::Run(Run&&) noexcept = default;
 Run& Run::operator=(Run&&) noexcept = default;
 
-bool Run::step() { return state_->loop.step(); }
+bool Run::step() {
+  try {
+    return state_->loop.step();
+  } catch (const std::bad_alloc&) {
+    ask_for_memory();
+    state_->loop.run_out_of_memory();
+    return false;
+  }
+}
 
 double Run::next_time() const { return state_->loop.next_time(); }
 

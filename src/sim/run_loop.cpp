@@ -149,14 +149,17 @@ void RunLoop::enqueue(int index) { agenda_.add(direction_ * (next(index).time - 
 
 void RunLoop::advance(int index) {
   Course& moving = course(index);
-  if (!moving.is_within_step() && ++step_count_ > world_.max_steps)
-    return fail(recorder_.end_time(), "more than max_steps = " + std::to_string(world_.max_steps) + " steps");
+  if (!moving.is_within_step() && ++step_count_ > world_.max_steps) {
+    const double t = recorder_.end_time();
+    const std::string jump = describe_jump(world_, index, t, moving.state(t));
+    return fail(
+        t, "more than max_steps = " + std::to_string(world_.max_steps) + " steps" + (jump.empty() ? "" : ": ") + jump);
+  }
   recorder_.motion(moving, moving.segment().t1());
   for (const int body : moving.group().bodies) encounters_.keep(body, moving, moving.segment().t1());
   if (const StepStatus status = moving.advance(); status != StepStatus::ok) {
     const double t = recorder_.end_time();
-    const std::string reason = describe_failure(world_, index, t, moving.state(t));
-    return fail(t, status_text(status) + (reason.empty() ? "" : ": ") + reason);
+    return fail(t, status_text(status) + ": " + describe_failure(world_, index, t, moving.state(t)));
   }
   double until = moving.next().time;
   for (const int body : moving.group().bodies) {
@@ -279,7 +282,14 @@ void RunLoop::fail(double time, const std::string& reason) {
   agenda_ = {};
 }
 
+void RunLoop::run_out_of_memory() {
+  recorder_.hand_on_no_more();
+  fail(recorder_.reached_time(), "memory has run out; what was computed until then is kept");
+}
+
 void RunLoop::interrupt(double time) {
+  if (recorder_.is_out_of_time())
+    return fail(time, "more than max_seconds = " + shortest_text(*world_.max_seconds) + " s of elapsed time");
   recorder_.set_end_time(time);
   recorder_.end(RunStatus::interrupted);
   running_ = false;

@@ -27,6 +27,8 @@ class RunLoop {
   /// Handles what happens next. False when the run is over.
   bool step();
   bool is_over() const { return !running_; }
+  /// Ends the run as far as it has come: a step could not get the memory that it needs.
+  void run_out_of_memory();
   double next_time() const;
   /// Ends the run where it is. Once.
   RunResult result();
@@ -66,6 +68,7 @@ class RunLoop {
   /// A motion whose state runs to infinity just at the end of the run has none there.
   void fail_if_blown_up();
   void fail(double time, const std::string& reason);
+  /// Ends the run where it was interrupted.
   void interrupt(double time);
 
   Course& course(int index) { return *courses_[static_cast<std::size_t>(index)]; }

@@ -94,6 +94,27 @@ TEST(Cost, NothingIsComputedForAnObserverThatWishesNothing) {
   EXPECT_EQ(silent.samples + silent.pieces, 0);
 }
 
+TEST(Cost, SamplesThatNobodyReadsAreNoWork) {
+  class Mover : public Counter {
+   public:
+    RunWishes wishes() const override { return {.motion = true}; }
+    bool interrupted(double) override { return ++questions > 100'000; }
+    long questions = 0;
+  };
+  const auto run_with = [](const std::string& sample, Mover& mover) {
+    return run_text("[time]\nend = 100\nsample = " + sample +
+                        "\n[[body]]\nname = \"b\"\nposition = [1, 0, 0]\nacceleration = \"-r\"\n",
+                    &mover);
+  };
+  Mover coarse, fine;
+  const RunResult few = run_with("1", coarse), many = run_with("1e-9", fine);
+  EXPECT_EQ(many.status, RunStatus::finished);
+  EXPECT_EQ(fine.samples, 0);
+  EXPECT_EQ(fine.questions, coarse.questions);
+  EXPECT_EQ(fine.pieces, coarse.pieces);
+  EXPECT_EQ(many.statistics.law_evaluations, few.statistics.law_evaluations);
+}
+
 TEST(Cost, ASteppedRunIsTheSameRun) {
   const World world = make_world(parse_scene(balls(3), "test.toml"));
   trajet::Run stepped(world);

@@ -45,6 +45,7 @@ struct MethodOptions {
   int order = 0;                   ///< series methods; 0: the method chooses
   SourceLocation order_where{};
   long max_steps = 1'000'000;
+  std::optional<Expression> max_seconds{};                             ///< s of elapsed time; none: no limit
   Locator locate = Locator::polynomial;                                ///< how the times of impacts are found
   OrientationWay orientation = OrientationWay::quaternion_normalized;  ///< how orientations are carried
   SourceLocation where{};                                              ///< of the name, or of the table

@@ -148,6 +148,7 @@ struct World {
   const MethodInfo* method = nullptr;
   StepOptions step_options;
   long max_steps = 0;
+  std::optional<double> max_seconds{};  ///< s, > 0, of elapsed time that a run may take
   Locator locate = Locator::polynomial;
   std::vector<NamedValue> parameters;
   std::map<std::string, std::shared_ptr<const LookupTable>> tables;

@@ -37,7 +37,8 @@ class RunObserver {
   /// In order of time: all bodies at the start, at each multiple of the sample spacing and at the end; the body
   /// concerned before and after each impact.
   virtual void sample(const Sample&) {}
-  /// Asked between steps and samples: true ends the run as `interrupted`. `time` is how far the run has come.
+  /// Asked between steps and samples: true ends the run as `interrupted`. `time` is how far the run has come. Where
+  /// memory is about to end, it may throw std::bad_alloc: the run then ends as `failed`.
   virtual bool interrupted(double time) { return time != time; }
 };
 
