@@ -80,7 +80,9 @@ ComparePlan plan(const CompareArguments& arguments) {
 
 std::string cell(const std::optional<double>& value) { return value ? fmt::format("{:.6g}", *value) : "-"; }
 
-std::string reference_line(const Comparison& comparison) {
+constexpr std::size_t kIndent = 2;  // of lines that go on
+
+std::string reference_line(const Comparison& comparison, int width) {
   std::string text = "reference: ";
   if (comparison.reference_name == "exact") {
     text += "exact, the scene's closed forms";
@@ -90,7 +92,7 @@ std::string reference_line(const Comparison& comparison) {
       text += fmt::format(", rtol {:g}, atol {:g}", *comparison.reference_rtol, *comparison.reference_atol);
     if (comparison.reference_step) text += fmt::format(", step {:g} s", *comparison.reference_step);
   }
-  return text + fmt::format("; compared: {}\n", fmt::join(comparison.components, ", "));
+  return wrap(text + fmt::format("; compared: {}", fmt::join(comparison.components, ", ")), kIndent, width);
 }
 
 std::string name(const ComparisonRow& row) {
@@ -104,10 +106,13 @@ std::string setting(const ComparisonRow& row) {
 /// The rows without result, where nobody sees the table.
 void warn_of_failures(const Comparison& comparison) {
   for (const ComparisonRow& row : comparison.rows)
-    if (!row.succeeded()) tell("warning: {}, {}: no result: {}\n", name(row), setting(row), row.failure);
+    if (!row.succeeded()) tell_warning(fmt::format("{}, {}: no result: {}", name(row), setting(row), row.failure));
 }
 
-std::string table(const Comparison& comparison, bool color) {
+/// Columns that tell which row it is: method, step, rtol.
+constexpr std::size_t kKeys = 3;
+
+std::string table(const Comparison& comparison, bool color, int width) {
   TextTable table{{"method", "step [s]", "rtol", "error: end", "at samples", "at nodes", "position: end", "at samples",
                    "at nodes", "evaluations", "steps", "rejected", "time [ms]"}};
   std::string failures;
@@ -123,13 +128,13 @@ std::string table(const Comparison& comparison, bool color) {
                      fmt::format("{:.3g}", 1e3 * row.statistics.wall_seconds)});
   }
   std::string text;
-  if (table.size() > 1) text += "\n" + format_table(table, 1);
+  if (table.size() > 1) text += "\n" + format_table(table, {.first_number = 1, .keys = kKeys, .width = width});
   if (!failures.empty()) text += "\nwithout result:\n" + failures;
   return text;
 }
 
-/// What becomes of bodies that turn: a table of its own, so that neither is too wide for a terminal.
-std::string rotation_table(const Comparison& comparison) {
+/// What becomes of bodies that turn.
+std::string rotation_table(const Comparison& comparison, int width) {
   if (!comparison.turns) return {};
   TextTable table{
       {"method", "step [s]", "rtol", "det R", "|q|", "angle [rad]: end", "at samples", "energy", "momentum"}};
@@ -140,12 +145,14 @@ std::string rotation_table(const Comparison& comparison) {
                        cell(row.rotation_at_samples.angle_rad), cell(row.rotation_at_samples.energy),
                        cell(row.rotation_at_samples.momentum)});
   if (table.size() == 1) return {};
-  return "\n" + format_table(table, 1) +
-         "\ndet R, |q|: at the end; angle: from the reference's orientation; energy, momentum: largest relative "
-         "drift\n";
+  return "\n" + format_table(table, {.first_number = 1, .keys = kKeys, .width = width}) +
+         wrap(
+             "\ndet R, |q|: at the end; angle: from the reference's orientation; energy, momentum: largest relative "
+             "drift",
+             kIndent, width);
 }
 
-std::string notes(const Comparison& comparison) {
+std::string notes(const Comparison& comparison, int width) {
   std::string text = "\nerrors: largest absolute value over all components, in SI units; position: m\n";
   bool is_cut = false;
   for (const ComparisonRow& row : comparison.rows)
@@ -154,7 +161,7 @@ std::string notes(const Comparison& comparison) {
     text += "closed forms hold up to the first bounce: what follows is not compared\n";
   else if (is_cut)
     text += "compared up to the earlier of the two ends, that of the run and that of the reference\n";
-  return text;
+  return wrap(text, kIndent, width);
 }
 
 int exit_code(const Comparison& comparison) {
@@ -202,7 +209,9 @@ int compare_command(const CompareArguments& arguments) {
     const bool color = wants_color(stdout);
     OutputFile out("-");
     if (!comparison.title.empty()) out.write(styled(comparison.title, Style::bold, color) + "\n");
-    out.write(reference_line(comparison) + table(comparison, color) + notes(comparison) + rotation_table(comparison));
+    const int width = text_width(stdout);
+    out.write(reference_line(comparison, width) + table(comparison, color, width) + notes(comparison, width) +
+              rotation_table(comparison, width));
     out.finish();
   } else {
     warn_of_failures(comparison);
@@ -211,7 +220,7 @@ int compare_command(const CompareArguments& arguments) {
     plot->open();
     plot->write(compare_figure(comparison, world, monitor.motions(), shown));
   }
-  for (const std::string& warning : comparison.warnings) tell("warning: {}\n", warning);
+  for (const std::string& warning : comparison.warnings) tell_warning(warning);
   return exit_code(comparison);
 }
 

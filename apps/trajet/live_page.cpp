@@ -7,6 +7,7 @@
 
 #include "loopback_server.hpp"
 #include "run_monitor.hpp"
+#include "scene_source.hpp"
 #include "trajet/io/output_file.hpp"
 #include "view_page.hpp"
 

@@ -22,7 +22,7 @@ std::string format(const Quaternion& q) {
 
 std::string format_time(double time) { return fmt::format("{:.10g}", time); }
 
-std::string impact_table(const std::vector<Impact>& impacts) {
+std::string impact_table(const std::vector<Impact>& impacts, int width) {
   // A ball that bounces to rest has hundreds of impacts: the first tell the story, the reports have them all.
   constexpr std::size_t kMostRows = 20;
   TextTable table{{"time [s]", "body", "with", "kind", "point [m]", "speed before [m/s]", "after"}};
@@ -32,36 +32,36 @@ std::string impact_table(const std::vector<Impact>& impacts) {
                      format(impact.point), fmt::format("{:.6g}", impact.velocity_before.norm()),
                      fmt::format("{:.6g}", impact.velocity_after.norm())});
   }
-  std::string text = format_table(table);
+  std::string text = format_table(table, {.width = width});
   if (impacts.size() > kMostRows) text += fmt::format("  … and {} more\n", impacts.size() - kMostRows);
   return text;
 }
 
-std::string event_table(const std::vector<EventRecord>& events) {
+std::string event_table(const std::vector<EventRecord>& events, int width) {
   constexpr std::size_t kMostRows = 20;
   TextTable table{{"time [s]", "event", "direction"}};
   for (const EventRecord& event : events) {
     if (table.size() > kMostRows) break;
     table.push_back({format_time(event.time), event.event, event.direction < 0 ? "falling" : "rising"});
   }
-  std::string text = format_table(table);
+  std::string text = format_table(table, {.width = width});
   if (events.size() > kMostRows) text += fmt::format("  … and {} more\n", events.size() - kMostRows);
   return text;
 }
 
-std::string final_state(const Sample& final) {
+std::string final_state(const Sample& final, int width) {
   std::string text;
   if (!final.bodies.empty()) {
     TextTable table{{"at the end", "position [m]", "velocity [m/s]"}};
     for (const BodyState& body : final.bodies)
       table.push_back({body.body, format(body.position), format(body.velocity)});
-    text += format_table(table);
+    text += format_table(table, {.width = width});
   }
   if (ranges::any_of(final.bodies, &BodyState::turns)) {
     TextTable table{{"at the end", "orientation (w, x, y, z)", "angular velocity [rad/s]"}};
     for (const BodyState& body : final.bodies)
       if (body.turns) table.push_back({body.body, format(body.orientation), format(body.angular_velocity)});
-    text += "\n" + format_table(table);
+    text += "\n" + format_table(table, {.width = width});
   }
   for (const NamedValue& state : final.states) text += fmt::format("  {} = {:.10g}\n", state.name, state.value);
   return text;
@@ -74,16 +74,16 @@ std::string cost(const RunStatistics& statistics) {
 
 }  // namespace
 
-std::string summary(const RunResult& result, bool color) {
+std::string summary(const RunResult& result, bool color, int width) {
   const bool is_good = result.status == RunStatus::finished || result.status == RunStatus::stopped;
   const Style style = is_good ? Style::green : result.status == RunStatus::failed ? Style::red : Style::yellow;
   std::string text;
   if (!result.title.empty()) text += styled(result.title, Style::bold, color) + "\n";
   text += fmt::format("{} at t = {} s (method {})\n", styled(name(result.status), style, color),
                       format_time(result.end_time), result.method);
-  if (!result.impacts.empty()) text += "\n" + impact_table(result.impacts);
-  if (!result.events.empty()) text += "\n" + event_table(result.events);
-  if (result.impacts.empty() || !result.final.states.empty()) text += "\n" + final_state(result.final);
+  if (!result.impacts.empty()) text += "\n" + impact_table(result.impacts, width);
+  if (!result.events.empty()) text += "\n" + event_table(result.events, width);
+  if (result.impacts.empty() || !result.final.states.empty()) text += "\n" + final_state(result.final, width);
   return text + "\n" + cost(result.statistics);
 }
 

@@ -6,7 +6,8 @@
 
 namespace trajet {
 
-/// What a person wants to know of a run: how it ended, what was hit, when, where, how fast, and what it cost.
-std::string summary(const RunResult& result, bool color);
+/// What a person wants to know of a run: how it ended, what was hit, when, where, how fast, and what it cost. Tables
+/// fit into `width` columns.
+std::string summary(const RunResult& result, bool color, int width);
 
 }  // namespace trajet

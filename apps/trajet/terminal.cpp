@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <cstdlib>
+#include <limits>
 
 namespace trajet {
 
@@ -13,6 +14,10 @@ int terminal_width(std::FILE* stream) {
   constexpr int kUsual = 80;
   winsize size{};
   return ioctl(fileno(stream), TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : kUsual;
+}
+
+int text_width(std::FILE* stream) {
+  return is_terminal(stream) ? terminal_width(stream) : std::numeric_limits<int>::max();
 }
 
 bool wants_color(std::FILE* stream) {

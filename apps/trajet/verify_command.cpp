@@ -71,12 +71,15 @@ double compute(const PublishedCheck& check) {
 
 int verify_command() {
   const bool color = wants_color(stdout);
+  const int width = text_width(stdout);
   TextTable table{{"problem", "quantity", "published", "ours", "difference", ""}};
   std::string text;
   std::string_view source;
   int wrong = 0;
   const auto print = [&] {
-    if (table.size() > 1) text += styled(source, Style::bold, color) + "\n" + format_table(table, 2) + "\n";
+    if (table.size() > 1)
+      text += styled(source, Style::bold, color) + "\n" +
+              format_table(table, {.first_number = 2, .keys = 2, .width = width}) + "\n";
     table.resize(1);
   };
   for (const PublishedCheck& check : published_checks()) {

@@ -7,9 +7,6 @@
 #include <algorithm>
 #include <cstdlib>
 #include <deque>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
 
 #include "message.hpp"
 #include "run_monitor.hpp"
@@ -20,13 +17,6 @@
 #include "trajet/sim/run.hpp"
 
 namespace trajet {
-
-std::string text_of(const std::string& path) {
-  std::error_code missing;
-  if (!std::filesystem::is_regular_file(path, missing)) return {};  // a pipe gives its text once
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
 
 ViewPage make_view_page(const ViewArguments& arguments, const PageOptions& options) {
   Scene scene = read_named_scene(arguments.scene);
@@ -40,7 +30,7 @@ ViewPage make_view_page(const ViewArguments& arguments, const PageOptions& optio
     RunMonitor monitor;
     ObserverList observers({&motion, &monitor});
     const RunResult result = run(variant, &observers);
-    if (result.status == RunStatus::failed) tell("error: {}: {}\n", result.method, result.failure);
+    if (result.status == RunStatus::failed) tell_error(result.method + ": " + result.failure);
     runs.push_back({motion, [text = report_json(result)](const auto& write) { write(text); }});
     return result.status;
   };
@@ -69,8 +59,9 @@ void warn_of_large_page(std::size_t bytes) {
   constexpr double kLarge = 50.0 * kMegabyte;
   const auto size = static_cast<double>(bytes);
   if (size > kLarge)
-    tell("warning: the page has {:.0f} MB, which a browser may be slow to show: it holds every step of the run\n",
-         size / kMegabyte);
+    tell_warning(
+        fmt::format("the page has {:.0f} MB, which a browser may be slow to show: it holds every step of the run",
+                    size / kMegabyte));
 }
 
 bool open_in_browser(const std::string& address) {

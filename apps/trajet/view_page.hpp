@@ -12,9 +12,6 @@ struct ViewPage {
   RunStatus status = RunStatus::finished;  ///< of the scene's own method; `interrupted` if any run was
 };
 
-/// What a file holds; empty where it cannot be read again.
-std::string text_of(const std::string& path);
-
 /// Runs the scene by its own method and by the further ones, and shows the runs on a page.
 /// Throws InputError where the scene is wrong, FileError where a file cannot be read.
 ViewPage make_view_page(const ViewArguments& arguments, const PageOptions& options);
