@@ -48,6 +48,15 @@ TEST(CommandLine, AnUnknownOptionIsNamedWithTheNearest) {
   EXPECT_NE(more.err.find("'twice'"), std::string::npos) << more.err;
 }
 
+TEST(CommandLine, BlanksAroundNamesInListsDoNotCount) {
+  const ProgramResult result = run_trajet(
+      {"compare", "rifle_shot", "--methods", "rk4, dopri5 ", "--steps", "10, 20", "--rtols", " 1e-6", "--csv", "-"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_NE(result.out.find("dopri5"), std::string::npos) << result.out;
+  EXPECT_EQ(run_trajet({"run", "rifle_shot", "--method", " rk4", "--step", "1 ms ", "--set", " theta = 0.1 deg "}).err,
+            "");
+}
+
 TEST(CommandLine, MethodsGoByOtherProgramsNamesAndInAnyCase) {
   const auto method_of = [](const std::string& name) {
     const ProgramResult result = run_trajet({"run", "rifle_shot", "--method", name, "--json", "-"});
@@ -81,6 +90,26 @@ TEST(CommandLine, SetReachesKeysOfBodiesAndObstacles) {
   EXPECT_NE(wrong.err.find("did you mean 'b.velocity'?"), std::string::npos) << wrong.err;
   const ProgramResult unit = run_trajet({"run", scene, "--set", "floor.restitution=2 m"});
   EXPECT_EQ(unit.exit_code, 2);
+}
+
+/// A scene with something to warn of before its first step, of every kind that there is.
+const std::string kDoubtful =
+    "[parameters]\nv0 = \"3 m/s\"\n[time]\nstart = 1e9\nend = 1000000001\n[method]\nname = \"Radau\"\n"
+    "[[body]]\nname = \"b\"\nposition = [0, 0, 1]\nvelocity = [\"v0\", 0, 0]\n"
+    "[[obstacle]]\nname = \"wall\"\nshape = \"plane\"\npoint = [0, 0, 0]\nnormal = [0, 0, 1]\nrestitution = 0.5\n"
+    "[[event]]\nname = \"never\"\nwhen = \"1\"\n";
+
+TEST(CommandLine, CheckWarnsOfWhatRunWarnsOfBeforeItSteps) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("s.toml", kDoubtful);
+  const ProgramResult checked = run_trajet({"check", scene, "--set", "v0=2"});
+  const ProgramResult run = run_trajet({"run", scene, "--set", "v0=2", "--json", "-"});
+  EXPECT_EQ(checked.exit_code, 0);
+  EXPECT_EQ(checked.err, run.err);
+  for (const char* text : {"--set v0=2 has no unit", "times near 1000000001 s", "'rodas5p' is the nearest",
+                           "obstacle 'wall' has a restitution", "event 'never' can never happen"})
+    EXPECT_NE(checked.err.find(text), std::string::npos) << text << "\n" << checked.err;
+  EXPECT_EQ(nlohmann::json::parse(run.out)["warnings"].size(), 5u);
 }
 
 }  // namespace
