@@ -2,7 +2,7 @@
 #
 #   cmake -DPROGRAM=trajet -DPYTHON=python3 -DSOURCE=... -DVERSION=... -DOUTPUT=FOLDER -P InstalledPages.cmake
 #
-# Writes OUTPUT/trajet.1 where there is Python, and OUTPUT/completion/ of the shells whose completion it can print.
+# Writes OUTPUT/trajet.1 where there is Python, and OUTPUT/completion/, a file for each shell.
 cmake_minimum_required(VERSION 3.25)
 
 file(REMOVE_RECURSE ${OUTPUT})
@@ -16,8 +16,5 @@ foreach(pair IN ITEMS bash:trajet zsh:_trajet fish:trajet.fish)
   string(REPLACE ":" ";" pair ${pair})
   list(GET pair 0 shell)
   list(GET pair 1 name)
-  execute_process(COMMAND ${PROGRAM} completion ${shell} OUTPUT_VARIABLE text ERROR_QUIET RESULT_VARIABLE code)
-  if(code EQUAL 0 AND text)
-    file(WRITE ${OUTPUT}/completion/${name} "${text}")
-  endif()
+  execute_process(COMMAND ${PROGRAM} completion ${shell} OUTPUT_FILE ${OUTPUT}/completion/${name} COMMAND_ERROR_IS_FATAL ANY)
 endforeach()

@@ -6,6 +6,10 @@
 #include "trajet/io/scene_overrides.hpp"
 #include "trajet/sim/run_result.hpp"
 
+namespace CLI {
+class App;
+}
+
 namespace trajet {
 
 /// How the program ends; docs/formats/report.md lists what each code means.
@@ -63,5 +67,7 @@ int verify_command();
 int methods_command();
 /// Lists the built-in scenes, or prints the one of that name.
 int examples_command(const std::string& name);
+/// Prints what makes a shell complete the options of `app`.
+int completion_command(const std::string& shell, const CLI::App& app);
 
 }  // namespace trajet

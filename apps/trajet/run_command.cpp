@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <new>
 #include <optional>
 #include <utility>
 #include <vector>
 
 #include "commands.hpp"
+#include "memory_reserve.hpp"
 #include "message.hpp"
 #include "output_names.hpp"
 #include "plot_file.hpp"
@@ -91,34 +93,52 @@ int run_command(const RunArguments& arguments) {
     return run(world, &observers);
   }();
 
+  bool is_all_written = true;
+  const auto write = [&](const char* option, const auto& output) {
+    const auto tell_of_memory = [&] {  // others may need less
+      tell_error(std::string(option) + ": memory has run out, the file is not complete");
+      is_all_written = false;
+    };
+    try {
+      output();
+    } catch (const std::bad_alloc&) {
+      tell_of_memory();
+    } catch (const FileError&) {
+      if (!is_out_of_memory()) throw;
+      tell_of_memory();
+    }
+  };
   if (csv) csv->finish();
-  if (json) {
-    write_report_json(result, [&](std::string_view part) { json->write(part); });
-    json->finish();
-  }
-  if (html) {
-    const auto report = [&](const auto& write) { write_report_json(result, write); };
-    std::size_t size = 0;
-    write_page({{motion, report}}, {.scene_text = text_of(arguments.scene)}, [&](std::string_view part) {
-      size += part.size();
-      html->write(part);
+  if (json)
+    write("--json", [&] {
+      write_report_json(result, [&](std::string_view part) { json->write(part); });
+      json->finish();
     });
-    warn_of_large_page(size);
-    html->finish();
-  }
-  if (glb) {
-    write_gltf(motion, result, arguments.fps, [&](std::string_view part) { glb->write(part); });
-    glb->finish();
-  }
-  if (plot) plot->write(run_figure(result, motion));
+  if (html)
+    write("--html", [&] {
+      const auto report = [&](const auto& write_part) { write_report_json(result, write_part); };
+      std::size_t size = 0;
+      write_page({{motion, report}}, {.scene_text = text_of(arguments.scene)}, [&](std::string_view part) {
+        size += part.size();
+        html->write(part);
+      });
+      warn_of_large_page(size);
+      html->finish();
+    });
+  if (glb)
+    write("--glb", [&] {
+      write_gltf(motion, result, arguments.fps, [&](std::string_view part) { glb->write(part); });
+      glb->finish();
+    });
+  if (plot) write("--plot", [&] { plot->write(run_figure(result, motion)); });
   if (!arguments.quiet && stdout_count == 0) {
     OutputFile out("-");
-    out.write(summary(result, wants_color(stdout)));
+    out.write(summary(result, wants_color(stdout), text_width(stdout)));
     out.finish();
   }
-  for (const std::string& warning : result.warnings) tell("warning: {}\n", warning);
-  if (result.status == RunStatus::failed) tell("error: {}\n", result.failure);
-  return exit_code(result.status);
+  for (const std::string& warning : result.warnings) tell_warning(warning);
+  if (result.status == RunStatus::failed) tell_error(result.failure);
+  return is_all_written ? exit_code(result.status) : kNumbersFailed;
 }
 
 }  // namespace trajet

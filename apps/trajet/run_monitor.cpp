@@ -4,8 +4,10 @@
 #include <signal.h>
 
 #include <atomic>
+#include <new>
 #include <utility>
 
+#include "memory_reserve.hpp"
 #include "message.hpp"
 #include "terminal.hpp"
 #include "trajet/scene/world.hpp"
@@ -61,6 +63,7 @@ void RunMonitor::begin(const World& world) {
   start_ = world.start;
   end_ = world.end;
   steps_ = 0;
+  set_memory_aside();
   began_ = Clock::now();
   next_show_ = began_ + kFirstShow;
 }
@@ -70,6 +73,7 @@ void RunMonitor::motion(const MotionPiece& piece) {
 }
 
 bool RunMonitor::interrupted(double time) {
+  if (is_out_of_memory()) throw std::bad_alloc();
   if (shows_progress_)
     if (const Clock::time_point now = Clock::now(); now >= next_show_) show(time, now);
   return ending_signal.load(std::memory_order_relaxed) != 0;

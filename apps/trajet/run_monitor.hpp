@@ -8,8 +8,8 @@
 
 namespace trajet {
 
-/// Follows a run for the program: shows progress, and ends the run on Ctrl-C
-/// and on the signals SIGTERM and SIGHUP.
+/// Follows a run for the program: shows progress, and ends the run on Ctrl-C, on the signals SIGTERM and SIGHUP, and
+/// where memory runs out.
 ///
 /// Progress goes to standard error, only if it is a terminal, and only once a run has taken half a second: how far it
 /// is, how fast it goes, and how long it will still take at that speed.

@@ -235,6 +235,56 @@ TEST(ExitCodes, AreThoseOfTheContractWhereNoMessageCanBeWritten) {
   }
 }
 
+/// What the program says where it may have so many KiB of memory.
+ProgramResult run_within(int memory, const std::string& arguments) {
+  const TemporaryFolder folder;
+  const std::string err = folder.file("err");
+  const std::string limit = "ulimit -c 0; ulimit -v " + std::to_string(memory) + "; exec ";
+  const int status = std::system((limit + TRAJET_PROGRAM " " + arguments + " 2>" + err).c_str());
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), "", read_text(err)};
+}
+
+TEST(ExitCodes, WhereMemoryEndsWhatWasComputedIsWritten) {
+#ifdef __SANITIZE_ADDRESS__
+  GTEST_SKIP() << "the sanitizer needs memory of its own";
+#endif
+  const TemporaryFolder folder;
+  const std::string scene = folder.write(
+      "s.toml",
+      "[time]\nend = 1e7\nsample = 1\n[method]\nmax_steps = 1000000000\n[[body]]\nname = \"ball\"\n"
+      "position = [0, 0, 1]\nacceleration = [0, 0, -98.18]\n[[obstacle]]\nname = \"ground\"\nshape = \"plane\"\n"
+      "point = [0, 0, 0]\nnormal = [0, 0, 1]\non_hit = \"bounce\"\n");
+  const std::string json = folder.file("r.json"), csv = folder.file("r.csv"), glb = folder.file("r.glb");
+  for (const std::string& more : {std::string(), " --glb " + glb + " --fps 0.1"}) {
+    const ProgramResult result =
+        run_within(60'000, "run " + scene + " --quiet --json " + json + " --csv " + csv + more);
+    EXPECT_EQ(result.exit_code, 4) << result.err;
+    EXPECT_NE(result.err.find("error: memory has run out; what was computed until then is kept"), std::string::npos)
+        << result.err;
+    const Json report = Json::parse(read_text(json));
+    EXPECT_EQ(report["status"], "failed");
+    EXPECT_NE(report["failure"].get<std::string>().find("memory has run out"), std::string::npos);
+    EXPECT_GT(report["impacts"].size(), 100u);
+    const std::vector<std::string> rows = lines(read_text(csv));
+    EXPECT_GT(rows.size(), 2 * report["impacts"].size());
+    EXPECT_EQ(std::stod(cells(rows.back())[0]), report["end_time"].get<double>());
+  }
+}
+
+TEST(ExitCodes, MemoryThatEndsEarlyIsNoFaultOfTheScene) {
+#ifdef __SANITIZE_ADDRESS__
+  GTEST_SKIP() << "the sanitizer needs memory of its own";
+#endif
+  const TemporaryFolder folder;
+  // beside this text there is no room for what is read from it
+  std::string text = "[time]\nend = 1\n";
+  for (int i = 0; i < 60'000; ++i)
+    text += "[[body]]\nname = \"b" + std::to_string(i) + "\"\nposition = [98.18, 0, 0]\n";
+  const ProgramResult result = run_within(60'000, "run " + folder.write("s.toml", text));
+  EXPECT_EQ(result.exit_code, 4);
+  EXPECT_EQ(result.err, "error: memory has run out\n");
+}
+
 TEST(ExitCodes, AWrongSceneLeavesEarlierFilesAlone) {
   const TemporaryFolder folder;
   const std::string wrong =

@@ -1,0 +1,200 @@
+#include "command_line.hpp"
+
+#include <algorithm>
+#include <optional>
+#include <string_view>
+#include <utility>
+
+#include "completion.hpp"
+#include "trajet/error.hpp"
+#include "trajet/text/decimal_number.hpp"
+#include "trajet/text/did_you_mean.hpp"
+#include "trajet/version.hpp"
+
+namespace trajet {
+namespace {
+
+CLI::Validator positive_number() {
+  const auto check = [](const std::string& text) {
+    const std::optional<double> value = finite_number(text);
+    return value && *value > 0.0 ? std::string() : "a positive number expected, got '" + text + "'";
+  };
+  return {check, "", "positive"};
+}
+
+/// Takes the blanks around a word away.
+CLI::Validator trimmed() {
+  const auto trim = [](std::string& text) {
+    CLI::detail::trim(text);
+    return std::string();
+  };
+  return {trim, "", "trimmed"};
+}
+
+/// An option with one word of a kind. Completions know kinds by their names (completion.cpp).
+template <class Value>
+CLI::Option& add_word(CLI::App& command, const char* name, Value& value, const char* kind, const char* description) {
+  return *command.add_option(name, value, description)->type_name(kind)->transform(trimmed());
+}
+
+/// An option with words of a kind, separated by commas.
+template <class Value>
+CLI::Option& add_list(CLI::App& command, const char* name, Value& values, const std::string& kind,
+                      const char* description) {
+  return *command.add_option(name, values, description)->delimiter(',')->type_name(kind + ",...")->transform(trimmed());
+}
+
+void add_file(CLI::App& command, const char* name, std::string& file, const char* description) {
+  command.add_option(name, file, description)->type_name("FILE");
+}
+
+void add_scene_options(CLI::App& command, RunArguments& arguments) {
+  command.add_option("SCENE", arguments.scene, "scene file (TOML), - for standard input, or a built-in scene's name")
+      ->required();
+  SceneOverrides& overrides = arguments.overrides;
+  command
+      .add_option("--set", overrides.parameters, "replace a parameter or a key (ball.velocity), NAME=VALUE; repeatable")
+      ->type_name("NAME=VALUE")
+      ->allow_extra_args(false);
+  add_word(command, "--method", overrides.method, "METHOD", "integration method, see 'trajet methods'");
+  add_word(command, "--orientation", overrides.orientation, "WAY",
+           "way of carrying orientations, see 'trajet methods'");
+  add_word(command, "--step", overrides.step, "DT", "step of a fixed-step method, \"10 ms\"");
+  add_word(command, "--order", overrides.order, "N", "order of a series method").check(positive_number());
+  add_word(command, "--rtol", overrides.rtol, "X", "relative tolerance");
+  add_word(command, "--atol", overrides.atol, "X", "absolute tolerance");
+  add_word(command, "--end", overrides.end, "T", "end time, \"5 s\"");
+  command.add_flag("--quiet", arguments.quiet, "no summary");
+}
+
+void add_report_options(CLI::App& command, RunArguments& arguments) {
+  add_file(command, "--json", arguments.json, "write the report there, - for standard output");
+  add_file(command, "--csv", arguments.csv, "write the samples or rows there, - for standard output");
+  add_file(command, "--plot", arguments.plot, "draw a figure there, as SVG, PNG or PDF by the end of the name");
+}
+
+/// `trajet help run` is `trajet run --help`.
+std::vector<std::string> with_help_spelt_out(std::vector<std::string> words) {
+  if (words.empty() || words.front() != "help") return words;
+  words.erase(words.begin());
+  words.resize(std::min<std::size_t>(words.size(), 1));
+  words.push_back("--help");
+  return words;
+}
+
+}  // namespace
+
+CommandLine::CommandLine()
+    : app_("trajet: the motion of particles and rigid solids, with the exact time and place of every impact") {
+  app_.name("trajet");
+  app_.set_version_flag("-V,--version", std::string("trajet ") + kVersion);
+  app_.require_subcommand(1);
+  add_run();
+  add_view();
+  add_scene_options(
+      add_command("check", "validate a scene without running it", [this] { return check_command(check_); }), check_);
+  add_compare();
+  add_lists();
+}
+
+CLI::App& CommandLine::add_command(const char* name, const char* description, std::function<int()> run) {
+  CLI::App* app = app_.add_subcommand(name, description);
+  commands_.push_back({app, std::move(run)});
+  return *app;
+}
+
+void CommandLine::add_run() {
+  CLI::App& command = add_command("run", "compute one motion", [this] { return run_command(run_); });
+  add_scene_options(command, run_);
+  add_report_options(command, run_);
+  add_file(command, "--html", run_.html, "write a page that plays the motion there, - for standard output");
+  add_file(command, "--glb", run_.glb, "write a glTF animation there, - for standard output");
+  add_word(command, "--fps", run_.fps, "N", "keys a second of the animation, default: 60").check(positive_number());
+}
+
+void CommandLine::add_view() {
+  CLI::App& command = add_command("view", "look at the motion in a browser", [this] { return view_command(view_); });
+  add_scene_options(command, view_);
+  add_list(command, "--methods", view_.methods, "METHOD", "further methods to show beside it, separated by commas");
+  add_list(command, "--orientations", view_.orientations, "WAY",
+           "further ways of carrying orientations to show beside it");
+  add_file(command, "--out", view_.out, "write the page there, - for standard output");
+  command.add_flag("--no-open", view_.no_open, "do not open a browser");
+  command.add_flag("--watch", view_.watch, "serve the page, and make it anew whenever the scene file changes");
+}
+
+void CommandLine::add_compare() {
+  CLI::App& command = add_command("compare", "measure several methods against a reference",
+                                  [this] { return compare_command(compare_); });
+  add_scene_options(command, compare_);
+  add_report_options(command, compare_);
+  add_list(command, "--methods", compare_.methods, "METHOD", "methods to compare, default: all");
+  add_list(command, "--orientations", compare_.orientations, "WAY",
+           "ways of carrying orientations, each with every method");
+  add_list(command, "--steps", compare_.steps, "N", "numbers of steps over the run, for methods of given step")
+      .check(positive_number());
+  add_list(command, "--rtols", compare_.rtols, "X", "relative tolerances, for error-controlled methods")
+      .check(positive_number());
+  add_word(command, "--show", compare_.show, "NAME", "what --plot draws against time: ball.z, ball.vx or a state");
+  add_word(command, "--reference", compare_.reference, "REFERENCE",
+           "what to compare with: exact (the scene's [exact]) or a method");
+}
+
+void CommandLine::add_lists() {
+  add_command("methods", "list the integration methods", [] { return methods_command(); });
+  add_command("verify", "compute published numbers anew and compare", [] { return verify_command(); });
+  add_command("examples", "list the built-in scenes, or print one", [this] {
+    return examples_command(example_);
+  }).add_option("EXAMPLE", example_, "the scene to print");
+  add_command("completion", "print what completes commands and options in a shell",
+              [this] { return completion_command(shell_, app_); })
+      .add_option("SHELL", shell_, "bash, zsh or fish")
+      ->required();
+}
+
+void CommandLine::check_name(const std::string& word) const {
+  if (word.starts_with('-')) return;  // left to CLI11
+  std::vector<std::string> names{"help"};
+  for (const Command& command : commands_) names.push_back(command.app->get_name());
+  if (std::find(names.begin(), names.end(), word) != names.end()) return;
+  throw InputError({"trajet"}, "unknown command '" + word + "', see 'trajet --help'" +
+                                   did_you_mean(word, std::vector<std::string_view>(names.begin(), names.end())));
+}
+
+std::string CommandLine::unknown_option() const {
+  const CLI::App* command = &app_;
+  for (const CLI::App* each : app_.get_subcommands()) command = each;
+  const std::vector<std::string> unexpected = app_.remaining(true);
+  std::vector<std::string> names;
+  for (const CLI::Option* option : command->get_options())
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  for (std::string word : unexpected) {
+    word = word.substr(0, word.find('='));
+    if (!word.starts_with('-') || word == "-") continue;
+    return "unknown option '" + word + "', see 'trajet " + command->get_name() + " --help'" +
+           did_you_mean(word, std::vector<std::string_view>(names.begin(), names.end()));
+  }
+  return "'" + (unexpected.empty() ? "" : unexpected.front()) + "' is one argument too many, see 'trajet " +
+         command->get_name() + " --help'";
+}
+
+int CommandLine::run(std::vector<std::string> words) {
+  if (!words.empty()) check_name(words.front());
+  words = with_help_spelt_out(std::move(words));
+  try {
+    std::reverse(words.begin(), words.end());  // as CLI11 takes them
+    app_.parse(words);
+  } catch (const CLI::ExtrasError&) {
+    throw InputError({"trajet"}, unknown_option());
+  } catch (const CLI::Success& success) {  // --help, --version
+    return app_.exit(success);
+  } catch (const CLI::ParseError& error) {
+    app_.exit(error);
+    return kWrongCommandLine;
+  }
+  for (const Command& command : commands_)
+    if (*command.app) return command.run();
+  return kWrongCommandLine;
+}
+
+}  // namespace trajet
