@@ -31,7 +31,9 @@ struct ForeignOperator {
 
 /// What other languages write, longest first.
 constexpr ForeignOperator kForeignOperators[] = {{"**", "^"},  {"&&", "and"}, {"||", "or"}, {"<>", "!="}, {"!", "not"},
-                                                 {"&", "and"}, {"=", "=="},   {";", ","},   {"{", "("},   {"}", ")"}};
+                                                 {"&", "and"}, {"=", "=="},   {";", ","},   {"{", "("},   {"}", ")"},
+                                                 {"−", "-"},   {"–", "-"},    {"·", "*"},   {"×", "*"},   {"÷", "/"},
+                                                 {"²", "^2"},  {"³", "^3"},   {"≤", "<="},  {"≥", ">="},  {"≠", "!="}};
 
 /// What to write for a character that other notations have.
 std::string_view remedy(std::string_view rest) {

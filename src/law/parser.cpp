@@ -2,6 +2,7 @@
 #include <array>
 #include <numbers>
 
+#include "foreign_words.hpp"
 #include "lexer.hpp"
 #include "syntax.hpp"
 #include "trajet/portable.hpp"
@@ -28,20 +29,6 @@ constexpr FunctionInfo kFunctions[] = {
     {"max", Operation::max, 2, kUnlimited}, {"pow", Operation::pow, 2, 2},     {"floor", Operation::floor, 1, 1},
     {"dot", Operation::dot, 2, 2},          {"cross", Operation::cross, 2, 2}, {"norm", Operation::norm, 1, 1},
     {"unit", Operation::unit, 1, 1},        {"where", Operation::where, 3, 3}, {"table", Operation::table, 2, 2},
-};
-
-/// What other languages call a function, and what to write.
-struct ForeignFunction {
-  std::string_view name;
-  std::string_view ours;
-};
-constexpr ForeignFunction kForeignFunctions[] = {
-    {"ln", "log(x)"},       {"lg", "log10(x)"},          {"if", "where(c, a, b)"},    {"iif", "where(c, a, b)"},
-    {"length", "norm(v)"},  {"mag", "norm(v)"},          {"magnitude", "norm(v)"},    {"normalize", "unit(v)"},
-    {"fabs", "abs(x)"},     {"sgn", "sign(x)"},          {"mod", "x - y*floor(x/y)"}, {"fmod", "x - y*floor(x/y)"},
-    {"ceil", "-floor(-x)"}, {"round", "floor(x + 0.5)"}, {"square", "x^2"},           {"arcsin", "asin(x)"},
-    {"arccos", "acos(x)"},  {"arctan", "atan(x)"},       {"arctan2", "atan2(y, x)"},  {"interp", "table(\"FILE\", x)"},
-    {"deg", "x*180/pi"},    {"rad", "x*pi/180"},         {"radians", "x*pi/180"},     {"degrees", "x*180/pi"},
 };
 
 /// An infix operator: it takes an operand on its right whose operators bind tighter than `right`.
@@ -81,7 +68,7 @@ class Parser {
 
   SyntaxNode formula() {
     SyntaxNode root = expression(0);
-    if (token_.kind != TokenKind::end) fail("an operator is expected before " + quoted(token_));
+    if (token_.kind != TokenKind::end) fail("an operator is expected before " + quoted(token_) + unit_hint());
     return root;
   }
 
@@ -176,12 +163,11 @@ class Parser {
 
   SyntaxNode call(SyntaxNode node, const FunctionInfo* function) {
     if (function == nullptr) {
-      const auto foreign = ranges::find(kForeignFunctions, node.text, &ForeignFunction::name);
-      if (foreign != std::end(kForeignFunctions))
-        throw InputError(node.where, "there is no function '" + node.text + "': write " + std::string(foreign->ours));
+      std::string remedy = remedy_for_function(node.text);
       std::vector<std::string_view> names;
       for (const FunctionInfo& known : kFunctions) names.push_back(known.name);
-      throw InputError(node.where, "there is no function '" + node.text + "'" + did_you_mean(node.text, names));
+      if (remedy.empty()) remedy = did_you_mean(node.text, names);
+      throw InputError(node.where, "there is no function '" + node.text + "'" + remedy);
     }
     node.kind = SyntaxNode::Kind::operation;
     node.operation = function->operation;
@@ -232,7 +218,18 @@ class Parser {
     node.children.push_back(std::move(child));
   }
 
-  void advance() { token_ = lexer_.next(); }
+  void advance() {
+    last_ = token_;
+    token_ = lexer_.next();
+  }
+
+  /// What to write where a name stands behind a number: "sin(30 deg)".
+  std::string unit_hint() const {
+    if (last_.kind != TokenKind::number || token_.kind != TokenKind::name) return {};
+    const std::string number(last_.text), name(token_.text);
+    return "; write " + number + "*" + name + ", or give a parameter the value \"" + number + " " + name +
+           "\" if that is a unit";
+  }
 
   bool is_symbol(std::string_view text) const { return token_.kind == TokenKind::symbol && token_.text == text; }
 
@@ -240,7 +237,7 @@ class Parser {
     if (!is_symbol(symbol)) {
       const std::string of = function.empty() ? "" : " to end the arguments of " + function;
       fail(std::string(reason) + "'" + std::string(symbol) + "' is expected" + of +
-           (token_.kind == TokenKind::end ? " at the end" : " before " + quoted(token_)));
+           (token_.kind == TokenKind::end ? " at the end" : " before " + quoted(token_) + unit_hint()));
     }
     advance();
   }
@@ -251,6 +248,7 @@ class Parser {
 
   Lexer lexer_;
   Token token_;
+  Token last_;  // before it
   int nesting_ = 0;
 };
 

@@ -3,6 +3,7 @@
 #include <cassert>
 #include <utility>
 
+#include "foreign_words.hpp"
 #include "graph.hpp"
 #include "syntax.hpp"
 #include "trajet/text/did_you_mean.hpp"
@@ -42,7 +43,9 @@ class Compiler {
   Value name(const SyntaxNode& node) {
     const Symbols::Meaning* meaning = symbols_.find(node.text);
     if (meaning == nullptr) {
-      throw InputError(node.where, "unknown name '" + node.text + "'" + did_you_mean(node.text, symbols_.names()));
+      const std::string remedy = remedy_for_name(node.text);
+      throw InputError(node.where, "unknown name '" + node.text + "'" +
+                                       (remedy.empty() ? did_you_mean(node.text, symbols_.names()) : remedy));
     }
     return std::visit([&](const auto& m) { return bind(node, m); }, *meaning);
   }

@@ -142,7 +142,7 @@ TEST(Expression, errors_point_at_the_token) {
       {"a && b", 3, "did you mean 'and'"},
       {"!a", 1, "did you mean 'not'"},
       {"a # b", 3, "'#' is not allowed"},
-      {"a + ×", 5, "'×' is not allowed"},
+      {"a + ©", 5, "'©' is not allowed"},
       {"1 < 2 < 3", 7, "do not chain"},
       {"1 < (2) < 3", 9, "do not chain"},
       {"1e999", 1, "outside the range"},
@@ -182,6 +182,15 @@ TEST(Expression, errors_point_at_the_token) {
       {"a + v[0]", 6, "vx, vy, vz of v"},
       {"[0, 0, v[2]]", 9, "vx, vy, vz of v"},
       {"sin(30°)", 7, "radians"},
+      {"sin(30 deg)", 8, "write 30*deg, or give a parameter the value \"30 deg\" if that is a unit"},
+      {"2 a", 3, "before 'a'; write 2*a"},
+      {"a*g0", 3, "unknown name 'g0': formulas are in SI units, write 9.80665 or give a parameter the value \"1 g0\""},
+      {"sin(2*moa)", 7, "write pi/10800"},
+      {"e^a", 1, "write exp(1)"},
+      {"2*π", 3, "write pi"},
+      {"a − b", 3, "did you mean '-'?"},
+      {"a×b", 2, "did you mean '*'?"},
+      {"a²", 2, "did you mean '^2'?"},
   };
   for (const ErrorCase& c : cases) {
     try {
