@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "toml_remedy.hpp"
 #include "trajet/portable.hpp"
 #include "trajet/text/decimal_number.hpp"
 
@@ -47,7 +48,15 @@ TomlDocument::TomlDocument(std::string text, std::string file) : text_(std::move
   try {
     root_ = toml::parse(text_, file_.str());
   } catch (const toml::parse_error& error) {
-    throw InputError(location(error.source().begin), std::string(error.description()));
+    const SourceLocation where = location(error.source().begin);
+    const std::string_view line =
+        std::string_view(text_).substr(line_offsets_[static_cast<std::size_t>(where.line) - 1]);
+    // "Error while parsing string: …", after whose colon stands what is wrong
+    std::string fault(error.description());
+    constexpr std::string_view kHead = "Error while parsing ";
+    if (fault.starts_with(kHead)) fault = "this is no TOML: " + fault.substr(kHead.size());
+    throw InputError(
+        where, fault + toml_remedy(line.substr(0, line.find('\n')), static_cast<std::size_t>(where.column) - 1, fault));
   }
 }
 

@@ -121,10 +121,13 @@ Expression TableReader::scalar_of(const toml::node& node, std::optional<Dimensio
 Expression TableReader::vector_of(const toml::node& node, std::optional<Dimension> expected) const {
   const std::string wanted = "a vector expected (an array of three or a vector expression)";
   if (const toml::value<std::string>* value = node.as_string()) {
-    if (split_quantity(value->get())) throw InputError(document_.location(node), wanted + ", got a scalar quantity");
+    if (split_quantity(value->get()))
+      throw InputError(document_.location(node),
+                       wanted + ", got a scalar quantity: write its direction too, [\"" + value->get() + "\", 0, 0]");
     return expression_of(*value, expected);
   }
   const toml::array* array = node.as_array();
+  if (node.is_number()) throw InputError(document_.location(node), wanted + ", got a number: write its direction too");
   if (array == nullptr) fail_type(node, wanted);
   if (array->size() != 3)
     throw InputError(document_.location(node), wanted + ", got " + std::to_string(array->size()) + " elements");
