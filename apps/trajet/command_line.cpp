@@ -73,6 +73,27 @@ void add_report_options(CLI::App& command, RunArguments& arguments) {
   add_file(command, "--plot", arguments.plot, "draw a figure there, as SVG, PNG or PDF by the end of the name");
 }
 
+/// What CLI11 says of words that are wrong, as a fault of ours at the option.
+InputError fault_of(const CLI::ParseError& error, const std::string& command) {
+  const std::string text = error.what(), see = ", see 'trajet " + command + "--help'";
+  const auto split = [&text](const std::string& mark) {
+    const std::size_t place = text.find(mark);
+    return std::pair(text.substr(0, place), place == std::string::npos ? "" : text.substr(place + mark.size()));
+  };
+  if (error.get_name() == "RequiredError") return {{"trajet"}, split(" is required").first + " is missing" + see};
+  const auto [option, fault] = split(": ");
+  if (error.get_name() == "ValidationError") return {{option}, fault};
+  if (error.get_name() == "ArgumentMismatch")
+    return {{option}, (fault.ends_with("missing") ? "its value is missing" : "once expected, given more often") + see};
+  if (error.get_name() == "ConversionError") {  // "Could not convert: --order = 2.5"
+    const std::size_t equals = fault.find(" = ");
+    return {{fault.substr(0, equals)},
+            "a whole number, or of a switch no value expected, got '" +
+                (equals == std::string::npos ? "" : fault.substr(equals + 3)) + "'"};
+  }
+  return {{"trajet"}, text + see};
+}
+
 /// `trajet help run` is `trajet run --help`.
 std::vector<std::string> with_help_spelt_out(std::vector<std::string> words) {
   if (words.empty() || words.front() != "help") return words;
@@ -189,8 +210,9 @@ int CommandLine::run(std::vector<std::string> words) {
   } catch (const CLI::Success& success) {  // --help, --version
     return app_.exit(success);
   } catch (const CLI::ParseError& error) {
-    app_.exit(error);
-    return kWrongCommandLine;
+    std::string command;
+    for (const CLI::App* each : app_.get_subcommands()) command = each->get_name() + " ";
+    throw fault_of(error, command);
   }
   for (const Command& command : commands_)
     if (*command.app) return command.run();

@@ -48,6 +48,26 @@ TEST(CommandLine, AnUnknownOptionIsNamedWithTheNearest) {
   EXPECT_NE(more.err.find("'twice'"), std::string::npos) << more.err;
 }
 
+TEST(CommandLine, WhatIsMissingOrTooMuchIsSaidInSentences) {
+  const struct {
+    std::vector<std::string> words;
+    const char* message;
+  } cases[] = {
+      {{}, "trajet: error: A subcommand is missing, see 'trajet --help'\n"},
+      {{"run"}, "trajet: error: SCENE is missing, see 'trajet run --help'\n"},
+      {{"run", "x", "--step"}, "--step: error: its value is missing, see 'trajet run --help'\n"},
+      {{"run", "x", "--fps", "-1"}, "--fps: error: a positive number expected, got '-1'\n"},
+      {{"run", "x", "--order", "2.5"}, "--order: error: a whole number, or of a switch no value expected, got '2.5'\n"},
+      {{"run", "x", "--order", "2", "--order", "3"},
+       "--order: error: once expected, given more often, see 'trajet run --help'\n"},
+  };
+  for (const auto& c : cases) {
+    const ProgramResult result = run_trajet(c.words);
+    EXPECT_EQ(result.exit_code, 2);
+    EXPECT_EQ(result.err, c.message);
+  }
+}
+
 TEST(CommandLine, BlanksAroundNamesInListsDoNotCount) {
   const ProgramResult result = run_trajet(
       {"compare", "rifle_shot", "--methods", "rk4, dopri5 ", "--steps", "10, 20", "--rtols", " 1e-6", "--csv", "-"});
