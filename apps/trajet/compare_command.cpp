@@ -156,7 +156,7 @@ std::string notes(const Comparison& comparison, int width) {
   std::string text = "\nerrors: largest absolute value over all components, in SI units; position: m\n";
   bool is_cut = false;
   for (const ComparisonRow& row : comparison.rows)
-    is_cut = is_cut || (row.succeeded() && row.compared_until != row.end_time);
+    is_cut = is_cut || (row.succeeded() && row.compared_until != row.elapsed);
   if (is_cut && comparison.reference_name == "exact")
     text += "closed forms hold up to the first bounce: what follows is not compared\n";
   else if (is_cut)

@@ -75,7 +75,7 @@ int run_command(const RunArguments& arguments) {
   apply(arguments.overrides, scene);
   // A wrong scene must not cost the user an earlier report: files are opened behind these lines.
   const World world = make_world(scene);
-  if (!arguments.glb.empty()) check_animation(std::abs(world.end - world.start), arguments.fps);
+  if (!arguments.glb.empty()) check_animation(std::abs(world.duration), arguments.fps);
 
   std::optional<OutputFile> json, csv, html, glb;
   std::optional<CsvWriter> csv_writer;

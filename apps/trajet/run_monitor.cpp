@@ -60,8 +60,8 @@ void RunMonitor::clear() {
 }
 
 void RunMonitor::begin(const World& world) {
-  start_ = world.start;
-  end_ = world.end;
+  start_ = world.epoch;
+  end_ = world.epoch + world.duration;
   steps_ = 0;
   set_memory_aside();
   began_ = Clock::now();

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "terminal.hpp"
@@ -20,7 +21,13 @@ std::string format(const Quaternion& q) {
   return fmt::format("({:.6g}, {:.6g}, {:.6g}, {:.6g})", q.w(), q.x(), q.y(), q.z());
 }
 
-std::string format_time(double time) { return fmt::format("{:.10g}", time); }
+/// A time that many `elapsed` seconds after the start: with ten digits of what has elapsed, whatever the clock shows.
+std::string format_time(double time, double elapsed) {
+  constexpr int kDigits = 10, kMostDigits = 17;
+  const double ratio = elapsed != 0.0 ? std::abs(time / elapsed) : 1.0;
+  const int digits = ratio > 10.0 ? kDigits + static_cast<int>(std::log10(ratio)) : kDigits;
+  return fmt::format("{:.{}g}", time, std::min(digits, kMostDigits));
+}
 
 std::string impact_table(const std::vector<Impact>& impacts, int width) {
   // A ball that bounces to rest has hundreds of impacts: the first tell the story, the reports have them all.
@@ -28,7 +35,7 @@ std::string impact_table(const std::vector<Impact>& impacts, int width) {
   TextTable table{{"time [s]", "body", "with", "kind", "point [m]", "speed before [m/s]", "after"}};
   for (const Impact& impact : impacts) {
     if (table.size() > kMostRows) break;
-    table.push_back({format_time(impact.time), impact.body, impact.with, std::string(name(impact.kind)),
+    table.push_back({format_time(impact.time, impact.elapsed), impact.body, impact.with, std::string(name(impact.kind)),
                      format(impact.point), fmt::format("{:.6g}", impact.velocity_before.norm()),
                      fmt::format("{:.6g}", impact.velocity_after.norm())});
   }
@@ -42,7 +49,7 @@ std::string event_table(const std::vector<EventRecord>& events, int width) {
   TextTable table{{"time [s]", "event", "direction"}};
   for (const EventRecord& event : events) {
     if (table.size() > kMostRows) break;
-    table.push_back({format_time(event.time), event.event, event.direction < 0 ? "falling" : "rising"});
+    table.push_back({format_time(event.time, event.elapsed), event.event, event.direction < 0 ? "falling" : "rising"});
   }
   std::string text = format_table(table, {.width = width});
   if (events.size() > kMostRows) text += fmt::format("  … and {} more\n", events.size() - kMostRows);
@@ -80,7 +87,7 @@ std::string summary(const RunResult& result, bool color, int width) {
   std::string text;
   if (!result.title.empty()) text += styled(result.title, Style::bold, color) + "\n";
   text += fmt::format("{} at t = {} s (method {})\n", styled(name(result.status), style, color),
-                      format_time(result.end_time), result.method);
+                      format_time(result.end_time, result.elapsed), result.method);
   if (!result.impacts.empty()) text += "\n" + impact_table(result.impacts, width);
   if (!result.events.empty()) text += "\n" + event_table(result.events, width);
   if (result.impacts.empty() || !result.final.states.empty()) text += "\n" + final_state(result.final, width);

@@ -15,15 +15,15 @@ using detail::Json;
 Json value(const std::optional<double>& number) { return number ? Json(*number) : Json(nullptr); }
 
 /// One row; its keys are the columns of the CSV too.
-Json object(const ComparisonRow& row, bool turns) {
+Json object(const ComparisonRow& row, const Comparison& comparison) {
   Json object{{"method", row.method},
               {"step", value(row.step)},
               {"rtol", value(row.rtol)},
               {"atol", value(row.atol)},
               {"status", name(row.status)},
               {"failure", row.failure.empty() ? Json(nullptr) : Json(row.failure)},
-              {"end_time", row.end_time},
-              {"compared_until", row.compared_until},
+              {"end_time", comparison.epoch + row.elapsed},
+              {"compared_until", comparison.epoch + row.compared_until},
               {"error_at_end", value(row.at_end.state)},
               {"max_error", value(row.at_samples.state)},
               {"max_error_at_nodes", value(row.at_nodes.state)},
@@ -36,7 +36,7 @@ Json object(const ComparisonRow& row, bool turns) {
               {"impacts", row.impacts},
               {"wall_seconds", row.statistics.wall_seconds},
               {"orientation", row.orientation.empty() ? Json(nullptr) : Json(row.orientation)}};
-  if (turns) {
+  if (comparison.turns) {
     object["determinant_at_end"] = value(row.rotation_at_end.determinant);
     object["quaternion_norm_at_end"] = value(row.rotation_at_end.norm);
     object["angle_error_at_end"] = value(row.rotation_at_end.angle_rad);
@@ -63,12 +63,12 @@ std::string cell(const Json& value) {
 std::string compare_json(const Comparison& comparison) {
   Json parameters = Json::object(), rows = Json::array();
   for (const NamedValue& parameter : comparison.parameters) parameters[parameter.name] = parameter.value;
-  for (const ComparisonRow& row : comparison.rows) rows.push_back(object(row, comparison.turns));
+  for (const ComparisonRow& row : comparison.rows) rows.push_back(object(row, comparison));
   return detail::json_text({{"trajet", kVersion},
                             {"scene", comparison.scene},
                             {"title", comparison.title},
-                            {"start_time", comparison.start_time},
-                            {"end_time", comparison.end_time},
+                            {"start_time", comparison.epoch},
+                            {"end_time", comparison.epoch + comparison.duration},
                             {"parameters", parameters},
                             {"reference",
                              {{"name", comparison.reference_name},
@@ -83,12 +83,12 @@ std::string compare_json(const Comparison& comparison) {
 
 std::string compare_csv(const Comparison& comparison) {
   std::string text, separator;
-  const Json columns = object(ComparisonRow{}, comparison.turns);
+  const Json columns = object(ComparisonRow{}, comparison);
   for (const auto& [column, ignored] : columns.items()) text += std::exchange(separator, ",") + column;
   text += "\n";
   for (const ComparisonRow& row : comparison.rows) {
     separator.clear();
-    const Json cells = object(row, comparison.turns);
+    const Json cells = object(row, comparison);
     for (const auto& [column, content] : cells.items()) text += std::exchange(separator, ",") + cell(content);
     text += "\n";
   }

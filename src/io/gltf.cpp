@@ -209,13 +209,13 @@ void add_bodies(ModelBuilder& builder, int root, const MotionRecord& motion, con
                 const detail::Extent& extent, double fps) {
   const World& world = motion.world();
   std::map<std::string_view, std::vector<double>> impact_times;  // of each body
-  for (const Impact& impact : result.impacts) impact_times[impact.body].push_back(impact.time);
+  for (const Impact& impact : result.impacts) impact_times[impact.body].push_back(impact.elapsed);
 
   for (std::size_t i = 0; i < world.bodies.size(); ++i) {
     const World::Body& body = world.bodies[i];
     std::vector<double> jumps = std::move(impact_times[body.name]);
-    for (const EventRecord& event : result.events) jumps.push_back(event.time);
-    ranges::sort(jumps, {}, [&](double t) { return std::abs(t - result.start_time); });
+    for (const EventRecord& event : result.events) jumps.push_back(event.elapsed);
+    ranges::sort(jumps, {}, [](double t) { return std::abs(t); });
     const AnimationKeys keys = detail::animation_keys(motion, result, body, jumps, fps);
     const LinearColor color = body.color ? linear(*body.color) : kBodyColors[i % kBodyColors.size()];
     const int node =

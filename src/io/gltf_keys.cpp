@@ -22,8 +22,8 @@ constexpr double kMostTurn = 0.45 * std::numbers::pi;
 
 /// A time that wants a key.
 struct Moment {
-  double t;        // s
-  float time;      // s from the start
+  double t;        // s since the start
+  float time;      // s, forward
   bool is_before;  // a jump at t: the pose before it
 };
 
@@ -88,22 +88,21 @@ class BodyMotion {
 
 /// The moments of a run of which nothing is known but its jumps: strictly increasing in single precision.
 std::vector<Moment> moments(const RunResult& result, std::span<const double> jumps, double fps) {
-  const double start = result.start_time;
-  const double direction = result.end_time < start ? -1.0 : 1.0;
-  const double duration = std::abs(result.end_time - start);
+  const double direction = result.elapsed < 0.0 ? -1.0 : 1.0;
+  const double duration = std::abs(result.elapsed);
   if (duration * fps > kMostAnimationKeys) throw std::length_error("too many keys for an animation");
   std::vector<Moment> all;  // of one time the last one counts
   const auto frame_count = static_cast<long>(std::floor(duration * fps));
   all.reserve(static_cast<std::size_t>(frame_count) + 2 + 2 * jumps.size());
   for (long i = 0; i <= frame_count; ++i) {
     const double time = static_cast<double>(i) / fps;
-    all.push_back({start + direction * time, static_cast<float>(time), false});
+    all.push_back({direction * time, static_cast<float>(time), false});
   }
-  all.push_back({result.end_time, static_cast<float>(duration), true});
+  all.push_back({result.elapsed, static_cast<float>(duration), true});
   for (const double t : jumps) {
-    const auto time = static_cast<float>(direction * (t - start));
+    const auto time = static_cast<float>(direction * t);
     all.push_back({t, time, true});
-    if (t != result.end_time) all.push_back({t, std::nextafter(time, std::numeric_limits<float>::infinity()), false});
+    if (t != result.elapsed) all.push_back({t, std::nextafter(time, std::numeric_limits<float>::infinity()), false});
   }
   ranges::stable_sort(all, {}, &Moment::time);
   std::vector<Moment> kept;
@@ -117,8 +116,7 @@ std::vector<Moment> moments(const RunResult& result, std::span<const double> jum
 
 class KeyMaker {
  public:
-  KeyMaker(const BodyMotion& motion, const World::Body& body, double start, std::size_t count)
-      : motion_(motion), body_(body), start_(start) {
+  KeyMaker(const BodyMotion& motion, const World::Body& body, std::size_t count) : motion_(motion), body_(body) {
     keys_.times.reserve(count);
     keys_.positions.reserve(count);
     if (body.rotation) keys_.rotations.reserve(count);
@@ -138,7 +136,7 @@ class KeyMaker {
   void fill(const Moment& from, const Moment& to) {
     if (motion_.largest_spin(from.t, to.t) * std::abs(to.t - from.t) <= kMostTurn) return;
     const double t = from.t + 0.5 * (to.t - from.t);
-    const Moment middle{t, static_cast<float>(std::abs(t - start_)), false};
+    const Moment middle{t, static_cast<float>(std::abs(t)), false};
     if (static_cast<double>(keys_.times.size()) >= kMostAnimationKeys) fail("would be more than a million");
     if (!(from.time < middle.time && middle.time < to.time)) fail("would be closer than single precision can tell");
     fill(from, middle);
@@ -166,7 +164,6 @@ class KeyMaker {
 
   const BodyMotion& motion_;
   const World::Body& body_;
-  double start_;  // s
   std::optional<Moment> last_;
   AnimationKeys keys_;
 };
@@ -177,9 +174,9 @@ AnimationKeys animation_keys(const MotionRecord& motion, const RunResult& result
                              std::span<const double> jumps, double fps) {
   const auto& pieces = motion.pieces(body.group);
   if (pieces.empty()) return {};
-  const BodyMotion body_motion(motion, body, result.end_time < result.start_time ? -1.0 : 1.0);
+  const BodyMotion body_motion(motion, body, result.elapsed < 0.0 ? -1.0 : 1.0);
   const std::vector<Moment> all = moments(result, jumps, fps);
-  KeyMaker maker(body_motion, body, result.start_time, all.size());
+  KeyMaker maker(body_motion, body, all.size());
   for (const Moment& moment : all) maker.add(moment);
   return std::move(maker).keys();
 }

@@ -165,6 +165,7 @@ T Graph::computed(const Node& node) const {
 
 int Graph::add_constant(int a, const ExtendedConstant& k) {
   if (k.value == 0.0) return a;
+  if (a == clock_) return add_constant(0, node(a).constant + k);
   if (is(a, Opcode::negate)) return operation(Opcode::constant_minus, {operand(a)}, k);
   return operation(Opcode::add_constant, {a}, k);
 }
@@ -182,7 +183,10 @@ int Graph::subtract(int a, int b) {
   if (const auto k = constant_value(b)) return add_constant(a, -*k);
   if (is(b, Opcode::negate)) return add(a, operand(b));
   if (is_constant(a, 0.0)) return negate(b);
-  if (const auto k = constant_value(a)) return operation(Opcode::constant_minus, {b}, *k);
+  if (const auto k = constant_value(a)) {
+    if (b == clock_) return operation(Opcode::constant_minus, {0}, *k + -node(b).constant);
+    return operation(Opcode::constant_minus, {b}, *k);
+  }
   if (is(a, Opcode::negate)) return negate(add(operand(a), b));
   return operation(Opcode::subtract, {a, b});
 }
@@ -297,6 +301,18 @@ int Graph::table(const std::shared_ptr<const LookupTable>& table, int x) {
   const auto index = static_cast<int>(known - tables_.begin());
   if (known == tables_.end()) tables_.push_back(table);
   return operation(Opcode::table, {x, index});
+}
+
+int Graph::clock(double epoch) {
+  const int node = add_constant(0, epoch);
+  if (epoch != 0.0) clock_ = node;
+  return node;
+}
+
+int Graph::compare(Opcode opcode, int a, int b) {
+  if (const auto k = constant_value(b); k && a == clock_) return compare(opcode, 0, constant(*k + -node(a).constant));
+  if (const auto k = constant_value(a); k && b == clock_) return compare(opcode, constant(*k + -node(b).constant), 0);
+  return operation(opcode, {a, b});
 }
 
 int Graph::apply(Opcode opcode, int a, int b) { return operation(opcode, {a, b}); }

@@ -43,6 +43,9 @@ class Graph {
   /// `then` where the condition is not 0.
   int where(int condition, int then, int otherwise);
   int table(const std::shared_ptr<const LookupTable>& table, int x);
+  /// The sum of input 0 and a number; what is compared to it or taken from it is so without rounding the sum.
+  int clock(double epoch);
+  int compare(Opcode opcode, int a, int b);
   /// Any other opcode of one or two operands.
   int apply(Opcode opcode, int a, int b = 0);
 
@@ -95,6 +98,7 @@ class Graph {
   Instruction make_instruction(int index, int twin, const std::vector<std::int32_t>& slots) const;
 
   int input_count_;
+  std::optional<int> clock_;  // the node, where it is not input 0 itself
   std::vector<Node> nodes_;
   std::unordered_map<Key, int, KeyHash> known_;
   std::unordered_map<Key, int, KeyHash> known_constants_;

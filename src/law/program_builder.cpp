@@ -121,11 +121,17 @@ class Compiler {
       case Operation::table:
         return scalar(table(node, a));
       case Operation::greater:
-        return scalar(graph_.apply(Opcode::less, b, a));
+        return scalar(graph_.compare(Opcode::less, b, a));
       case Operation::greater_equal:
-        return scalar(graph_.apply(Opcode::less_equal, b, a));
+        return scalar(graph_.compare(Opcode::less_equal, b, a));
       case Operation::not_equal:
-        return scalar(graph_.subtract(graph_.constant(1.0), graph_.apply(Opcode::equal, a, b)));
+        return scalar(graph_.subtract(graph_.constant(1.0), graph_.compare(Opcode::equal, a, b)));
+      case Operation::less:
+        return scalar(graph_.compare(Opcode::less, a, b));
+      case Operation::less_equal:
+        return scalar(graph_.compare(Opcode::less_equal, a, b));
+      case Operation::equal:
+        return scalar(graph_.compare(Opcode::equal, a, b));
       case Operation::logical_and:  // a and b: b if a holds, else 0
         return scalar(graph_.where(a, b, graph_.constant(0.0)));
       case Operation::logical_or:  // a or b: 1 if a holds, else b
@@ -172,12 +178,6 @@ class Compiler {
         return Opcode::sign;
       case Operation::floor:
         return Opcode::floor;
-      case Operation::less:
-        return Opcode::less;
-      case Operation::less_equal:
-        return Opcode::less_equal;
-      case Operation::equal:
-        return Opcode::equal;
       default:
         break;
     }
@@ -313,6 +313,7 @@ ProgramBuilder::Value ProgramBuilder::compile_vector(const Expression& formula, 
 }
 
 ProgramBuilder::Value ProgramBuilder::inputs(const std::array<int, 3>& indices) const { return {true, indices}; }
+int ProgramBuilder::clock(double epoch) { return graph_->clock(epoch); }
 ProgramBuilder::Value ProgramBuilder::constant(double value) { return {false, {graph_->constant(value), 0, 0}}; }
 
 ProgramBuilder::Value ProgramBuilder::divide(const Value& numerator, const Value& denominator) {

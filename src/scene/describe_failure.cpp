@@ -92,7 +92,7 @@ class LawReading {
     const std::string owner =
         formula.body >= 0 ? " of body '" + body(formula).name + "'" : " of state '" + state(formula).name + "'";
     std::string result = std::string(formula.key) + owner + " (" + place(formula.text.where()) + text + ") is " +
-                         text_of(value(formula.text, formula, t, q)) + " at t = " + shortest_text(t) + " s";
+                         text_of(value(formula.text, formula, t, q)) + " at t = " + clock_text(t) + " s";
     std::size_t count = 0;
     for (const std::string& name : formula.text.names()) {
       if (name == "t" || count == kMostValues) continue;
@@ -117,6 +117,9 @@ class LawReading {
     if (!own.empty() || is_of_state(component)) return own;
     return describe_where([owner = body_of(component)](const Formula& formula) { return formula.body == owner; });
   }
+
+  /// What the scene's clock shows at time t.
+  std::string clock_text(double t) const { return shortest_text(world_.epoch + t); }
 
   /// Of a component of the state.
   std::string name_of(int component) const {
@@ -168,17 +171,17 @@ struct Growth {
   bool of_the_state;  ///< else of its rate alone
 };
 
-std::optional<Growth> find_growth(const LawReading& law, double start, double t, const Eigen::VectorXd& q) {
+std::optional<Growth> find_growth(const LawReading& law, double t, const Eigen::VectorXd& q) {
   constexpr double kNoTime = 1e-6;  // of the run so far
   constexpr double kLarge = 1e3;    // beside all that the state has been
-  const double elapsed = std::abs(t - start);
+  const double elapsed = std::abs(t);
   const std::vector<double> rate = law.rate(t, q);
   std::vector<double> first_rate;  // where it is needed
   std::optional<Growth> fastest;
   for (std::size_t i = 0; i < rate.size(); ++i) {
     const auto k = static_cast<Eigen::Index>(i);
     if (!(std::abs(q[k]) < kNoTime * elapsed * std::abs(rate[i]))) continue;
-    if (first_rate.empty()) first_rate = law.rate(start, law.group().start);
+    if (first_rate.empty()) first_rate = law.rate(0.0, law.group().start);
     const double usual = std::abs(law.group().start[k]) + std::abs(first_rate[i]) * elapsed;
     const double remaining = std::max(std::abs(q[k]), usual) / std::abs(rate[i]);
     if (!(remaining < kNoTime * elapsed) || (fastest && fastest->remaining <= remaining)) continue;
@@ -188,7 +191,7 @@ std::optional<Growth> find_growth(const LawReading& law, double start, double t,
 }
 
 std::string blow_up_text(const LawReading& law, const Growth& growth, double t, const Eigen::VectorXd& q) {
-  return law.name_of(growth.component) + " runs to infinity in finite time, near t = " + shortest_text(t) + " s" +
+  return law.name_of(growth.component) + " runs to infinity in finite time, near t = " + law.clock_text(t) + " s" +
          law.describe_all(growth.component, t, q);
 }
 
@@ -197,8 +200,8 @@ std::optional<std::string> find_hole_ahead(const LawReading& law, const World& w
                                            const Eigen::VectorXd& q) {
   const std::vector<double> rate = law.rate(t, q);
   const Eigen::VectorXd direction = Eigen::Map<const Eigen::VectorXd>(rate.data(), q.size());
-  const double sign = world.end < world.start ? -1.0 : 1.0;
-  const double furthest = world.step_options.step.value_or(1e-6 * std::abs(world.end - world.start));
+  const double sign = world.direction();
+  const double furthest = world.step_options.step.value_or(1e-6 * std::abs(world.duration));
   constexpr double kFiner = 10.0;
   for (double ahead = 1e-16 * (1.0 + std::abs(t)); ahead <= kFiner * furthest; ahead *= kFiner) {
     const double h = sign * std::min(ahead, furthest);
@@ -242,7 +245,7 @@ Restless find_restless(const LawReading& law, double t, const Eigen::VectorXd& q
 
 std::string jump_text(const LawReading& law, const Restless& restless, double t, const Eigen::VectorXd& q) {
   if (!restless.jumps) return {};
-  return "the rate of " + law.name_of(restless.component) + " jumps near t = " + shortest_text(t) + " s" +
+  return "the rate of " + law.name_of(restless.component) + " jumps near t = " + law.clock_text(t) + " s" +
          law.describe_all(restless.component, t, q);
 }
 
@@ -257,11 +260,11 @@ std::string describe_failure(const World& world, int group, double t, const Eige
     const int component = static_cast<int>(broken - rate.begin());
     return "the rate of " + law.name_of(component) + " is " + text_of(*broken) + law.describe_all(component, t, q);
   }
-  const std::optional<Growth> growth = find_growth(law, world.start, t, q);
+  const std::optional<Growth> growth = find_growth(law, t, q);
   if (growth && growth->of_the_state) return blow_up_text(law, *growth, t, q);
   if (const auto hole = find_hole_ahead(law, world, t, q)) return *hole;
   if (growth)
-    return "the rate of " + law.name_of(growth->component) + " runs to infinity near t = " + shortest_text(t) +
+    return "the rate of " + law.name_of(growth->component) + " runs to infinity near t = " + law.clock_text(t) +
            " s, where the law has a pole" + law.describe_all(growth->component, t, q);
   const Restless restless = find_restless(law, t, q);
   const std::string jump = jump_text(law, restless, t, q);
@@ -277,7 +280,7 @@ std::string describe_jump(const World& world, int group, double t, const Eigen::
 
 std::string describe_blow_up(const World& world, int group, double t, const Eigen::VectorXd& q) {
   const LawReading law(world, group);
-  const std::optional<Growth> growth = find_growth(law, world.start, t, q);
+  const std::optional<Growth> growth = find_growth(law, t, q);
   return growth && growth->of_the_state ? blow_up_text(law, *growth, t, q) : "";
 }
 

@@ -7,7 +7,7 @@ namespace trajet {
 
 Symbols group_symbols(const World& world, int group, const Symbols& outer, ProgramBuilder& builder) {
   Symbols symbols(&outer);
-  symbols.set_input("t", 0);
+  symbols.set_node("t", builder.clock(world.epoch));
   for (const int index : world.groups[static_cast<std::size_t>(group)].bodies) {
     const World::Body& body = world.bodies[static_cast<std::size_t>(index)];
     add_body_symbols(symbols, body.name + ".", 1 + body.offset);

@@ -77,9 +77,8 @@ void set_method(const MethodOptions& method, const SceneNumbers& numbers, World&
     throw InputError(method.rtol->where(), "rtol and atol must not both be zero");
   if (method.step) options.step = numbers.positive(*method.step, "step");
   options.order = method.order;
-  const double direction = world.end < world.start ? -1.0 : 1.0;
-  double t = world.start;
-  for (const Expression& step : method.steps) options.nodes.push_back(t += direction * numbers.positive(step, "step"));
+  double t = 0.0;
+  for (const Expression& step : method.steps) options.nodes.push_back(t += world.direction() * numbers.positive(step, "step"));
   if (world.method->needs_step() && !options.step && options.nodes.empty())
     throw InputError(method.where,
                      "method '" + std::string(world.method->name) + "' takes fixed steps: give [method] step");

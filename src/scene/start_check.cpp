@@ -41,14 +41,14 @@ void check_starts(const World& world) {
   }
 }
 
-void warn_of_coarse_times(World& world) {
+void warn_of_coarse_times(World& world, double end) {
   constexpr double kCoarse = 1e-10;  // of the run
-  const double latest = std::max(std::abs(world.start), std::abs(world.end));
+  const double latest = std::max(std::abs(world.epoch), std::abs(end));
   const double spacing = std::nextafter(latest, std::numeric_limits<double>::infinity()) - latest;
-  const double duration = std::abs(world.end - world.start);
+  const double duration = std::abs(world.duration);
   if (duration > 0.0 && spacing > kCoarse * duration)
     world.warnings.push_back("times near " + shortest_text(latest) + " s are numbers " + shortest_text(spacing) +
-                             " s apart: what is over sooner, such as low bounces, is lost; let the run start at 0");
+                             " s apart: reports cannot say more closely when something was; let the run start at 0");
 }
 
 }  // namespace trajet

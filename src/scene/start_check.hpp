@@ -9,6 +9,6 @@ namespace trajet {
 void check_starts(const World& world);
 
 /// Warns where the times of a run are so large that what is short beside it is lost between two doubles.
-void warn_of_coarse_times(World& world);
+void warn_of_coarse_times(World& world, double end);
 
 }  // namespace trajet

@@ -76,12 +76,13 @@ class WorldBuilder {
   void set_time() {
     const TimeOptions& time = scene_.time;
     if (!time.end) throw InputError({scene_.file, 1, 1}, "[time] needs `end`");
-    world_.start = numbers_.scalar(time.start, "start time");
-    world_.end = numbers_.scalar(*time.end, "end time");
-    const double duration = std::abs(world_.end - world_.start);
-    if (world_.end < world_.start && !scene_.obstacles.empty())
+    world_.epoch = numbers_.scalar(time.start, "start time");
+    const double end = numbers_.scalar(*time.end, "end time");
+    world_.duration = end - world_.epoch;
+    const double duration = std::abs(world_.duration);
+    if (world_.duration < 0.0 && !scene_.obstacles.empty())
       throw InputError(time.end->where(), "the end is before the start: impacts have no meaning backward in time");
-    warn_of_coarse_times(world_);
+    warn_of_coarse_times(world_, end);
     if (!std::isfinite(duration)) throw InputError(time.end->where(), "start and end are too far apart for a double");
     if (time.sample) {
       world_.sample = numbers_.positive(*time.sample, "sample spacing");
@@ -251,7 +252,7 @@ class WorldBuilder {
       const World::Body& body = world_.bodies[i];
       if (!scene_.bodies[i].mass) continue;
       double mass = 0.0;
-      Evaluator<double> (*body.mass)(world_.start, world_.groups[static_cast<std::size_t>(body.group)].start.data(),
+      Evaluator<double> (*body.mass)(0.0, world_.groups[static_cast<std::size_t>(body.group)].start.data(),
                                      &mass);
       if (!(mass > 0.0))
         throw InputError(scene_.bodies[i].mass->where(), "mass of body '" + body.name + "' must be positive");
@@ -290,9 +291,9 @@ class WorldBuilder {
 
   void compile_exact(const NamedExpression& closed_form) {
     const bool is_in_body = closed_form.name.ends_with(".w_body");
-    Symbols symbols(&parameters_.symbols);
-    symbols.set_input("t", 0);
     ProgramBuilder value(1);
+    Symbols symbols(&parameters_.symbols);
+    symbols.set_node("t", value.clock(world_.epoch));
     if (is_in_body || closed_form.name.ends_with(".w")) {
       value.add_output(value.compile_vector(closed_form.value, symbols));
       auto& angular_velocity = exact_rotation(closed_form.name, closed_form.where).angular_velocity;
@@ -321,9 +322,9 @@ class WorldBuilder {
 
   void compile_exact_orientation(const ExactOrientation& closed_form) {
     using Form = World::ClosedRotation::Form;
-    Symbols symbols(&parameters_.symbols);
-    symbols.set_input("t", 0);
     ProgramBuilder value(1);
+    Symbols symbols(&parameters_.symbols);
+    symbols.set_node("t", value.clock(world_.epoch));
     const OrientationDefinition& given = closed_form.value;
     if (given.axis) value.add_output(value.compile_vector(*given.axis, symbols));
     if (given.angle_rad) value.add_output(value.compile_scalar(*given.angle_rad, symbols));

@@ -42,8 +42,8 @@ double distance(const Aabb& a, const Aabb& b) {
 
 BodyOverlaps::BodyOverlaps(const World& world)
     : world_(world),
-      direction_(world.end < world.start ? -1.0 : 1.0),
-      window_(std::abs(world.end - world.start) / kWindows),
+      direction_(world.direction()),
+      window_(std::abs(world.duration) / kWindows),
       pieces_(world.groups.size()) {
   for (std::size_t i = 0; i < world.bodies.size(); ++i) {
     radii_.push_back(bounding_radius(world.bodies[i].solid));
@@ -54,7 +54,7 @@ BodyOverlaps::BodyOverlaps(const World& world)
 
 bool BodyOverlaps::are_possible(const World& world) {
   const auto has_extent = [](const World::Body& body) { return bounding_radius(body.solid) > 0.0; };
-  return world.bodies.size() > 1 && world.end != world.start && ranges::any_of(world.bodies, has_extent);
+  return world.bodies.size() > 1 && world.duration != 0.0 && ranges::any_of(world.bodies, has_extent);
 }
 
 const std::deque<BodyOverlaps::Piece>& BodyOverlaps::pieces_of(int body) const {
@@ -79,7 +79,7 @@ void BodyOverlaps::add(const MotionPiece& piece) {
 std::optional<BodyOverlaps::Overlap> BodyOverlaps::finish(double end_time) {
   while (!found_ && looked_to_ < ahead(end_time)) look_on(std::min(looked_to_ + window_, ahead(end_time)));
   if (!found_) return std::nullopt;
-  return Overlap{world_.start + direction_ * found_->ahead, found_->first, found_->second};
+  return Overlap{direction_ * found_->ahead, found_->first, found_->second};
 }
 
 void BodyOverlaps::look_on(double to) {
@@ -150,7 +150,7 @@ const BodyOverlaps::Piece& BodyOverlaps::piece_at(int body, double time) const {
 }
 
 bool BodyOverlaps::overlap_at(int first, int second, double time) const {
-  const double t = world_.start + direction_ * time;
+  const double t = direction_ * time;
   const auto placed = [&](int index) {
     return place(world_, world_.bodies[static_cast<std::size_t>(index)], piece_at(index, time).segment, t);
   };

@@ -53,7 +53,7 @@ class BodyOverlaps {
     int second;
   };
 
-  double ahead(double t) const { return direction_ * (t - world_.start); }
+  double ahead(double t) const { return direction_ * t; }
   const Solid& solid(int body) const { return world_.bodies[static_cast<std::size_t>(body)].solid; }
   const std::deque<Piece>& pieces_of(int body) const;
   const Piece& piece_at(int body, double time) const;

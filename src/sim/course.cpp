@@ -30,9 +30,9 @@ Course::Course(const World& world, int group)
     const World::Event& definition = world.events[static_cast<std::size_t>(event)];
     watches_.push_back({Crossing::Kind::event, event, EventWatch(definition.when, definition.direction)});
   }
-  piece_ = {world.start, world.start, world.start, true};
+  piece_ = {0.0, 0.0, 0.0, true};
   use_contacts();
-  begin(world.start, this->group().start, nullptr);
+  begin(0.0, this->group().start, nullptr);
 }
 
 void Course::use_contacts() {
@@ -71,8 +71,7 @@ void Course::use_contacts() {
 }
 
 void Course::enter_piece(double t) {
-  const double direction = world_.end < world_.start ? -1.0 : 1.0;
-  if (piece_.is_switch && direction * (t - piece_.end) >= 0.0) piece_ = switches_.piece(t, world_.end);
+  if (piece_.is_switch && world_.direction() * (t - piece_.end) >= 0.0) piece_ = switches_.piece(t, world_.duration);
   free_system_->keep_within(piece_.first, piece_.last);
   if (held_system_) held_system_->keep_within(piece_.first, piece_.last);
 }
@@ -166,7 +165,7 @@ StepStatus Course::advance() {
   if (rest_of_step_.empty()) {
     const bool has_switch = !switches_.empty() && piece_.is_switch;
     if (has_switch && stepper_->time() == piece_.end) pass_switch();
-    const double limit = !switches_.empty() && piece_.is_switch ? piece_.end : world_.end;
+    const double limit = !switches_.empty() && piece_.is_switch ? piece_.end : world_.duration;
     if (const StepStatus status = stepper_->advance(limit); status != StepStatus::ok) return status;
     stepper_->fill_segment(segment_);
     end_state_ = stepper_->state();

@@ -86,7 +86,7 @@ class Course {
   double error_bound_along(const Eigen::VectorXd& direction, double t) {
     return error_.bound_along(direction, law(), segment_, t);
   }
-  bool finished() const { return segment_.t1() == world_.end; }
+  bool finished() const { return segment_.t1() == world_.duration; }
   StepStatistics statistics() const;
   /// What the method has to say of its work.
   std::vector<std::string> warnings() const;

@@ -21,7 +21,7 @@ Impact without_impulse(const World& world, PairId id, const Eigen::VectorXd& q) 
 
 Impact describe(const World& world, const Pair& pair, const Eigen::VectorXd& q) {
   Impact impact = without_impulse(world, pair.id, q);
-  impact.time = pair.contact.time;
+  impact.elapsed = pair.contact.time;
   impact.kind = pair.contact.status == ContactStatus::graze ? ImpactKind::graze : ImpactKind::hit;
   impact.point = pair.contact.point;
   impact.normal = pair.contact.normal;
@@ -32,7 +32,7 @@ Impact describe(const World& world, const Pair& pair, const Eigen::VectorXd& q) 
 Impact describe(const World& world, const RestingContact& contact, ImpactKind kind, double time,
                 const Eigen::VectorXd& q) {
   Impact impact = without_impulse(world, {contact.body, contact.obstacle}, q);
-  impact.time = time;
+  impact.elapsed = time;
   impact.kind = kind;
   impact.normal = contact.normal;
   impact.point =

@@ -19,7 +19,7 @@ std::vector<Impact> bounce_plastic(const World& world, const Encounters& encount
     const Pair& other = *ranges::find(encounters.pairs(id.body), id, &Pair::id);
     if (!is_plastic(other)) continue;
     impacts.push_back(describe(world, other, instant.before()));
-    impacts.back().time = impact.time;
+    impacts.back().elapsed = impact.elapsed;
   }
   const int offset = world.bodies[static_cast<std::size_t>(handled.id.body)].offset;
   std::vector<Vector3> normals;

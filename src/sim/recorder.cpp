@@ -22,12 +22,12 @@ Recorder::Recorder(const World& world, const Courses& courses, RunObserver& obse
       observer_(observer),
       wishes_(observer.wishes()),
       time_limit_(world.max_seconds),
-      direction_(world.end < world.start ? -1.0 : 1.0) {
+      direction_(world.direction()) {
   observer_.begin(world_);
   result_.scene = world.scene;
   result_.title = world.title;
   result_.method = world.method->name;
-  result_.start_time = result_.end_time = world.start;
+  result_.start_time = world.epoch;
   result_.parameters = world.parameters;
   result_.warnings = world.warnings;
   if (BodyOverlaps::are_possible(world)) overlaps_.emplace(world);
@@ -36,10 +36,10 @@ Recorder::Recorder(const World& world, const Courses& courses, RunObserver& obse
 bool Recorder::sample_until(double& time) {
   if (!wishes_.samples) return true;
   while (true) {
-    double next = world_.start + direction_ * static_cast<double>(next_sample_) * world_.sample;
+    double next = direction_ * static_cast<double>(next_sample_) * world_.sample;
     // a multiple of the spacing that misses the end by rounding is the end
     constexpr double kRounding = 1e-9;
-    if (std::abs(next - world_.end) < kRounding * world_.sample) next = world_.end;
+    if (std::abs(next - world_.duration) < kRounding * world_.sample) next = world_.duration;
     if (direction_ * (time - next) < 0.0) return true;
     ++next_sample_;
     sample(next);
@@ -57,7 +57,7 @@ void Recorder::sample(double time) {
 }
 
 double Recorder::reached_time() const {
-  const double sampled = last_sample_.value_or(world_.start);
+  const double sampled = last_sample_.value_or(0.0);
   return direction_ * (sampled - end_time()) > 0.0 ? sampled : end_time();
 }
 
@@ -74,7 +74,8 @@ void Recorder::sample(double time, int body) {
 
 Sample Recorder::sample_at(double time, std::optional<int> only) const {
   Sample sample;
-  sample.time = time;
+  sample.time = world_.epoch + time;
+  sample.elapsed = time;
   const auto add = [&](const Course& course, std::span<const int> bodies) {
     const Eigen::VectorXd q = course.state(time);
     const Eigen::VectorXd rate = course.rate(time, q);
@@ -103,20 +104,33 @@ void Recorder::motion(Course& course, double t) {
   if (overlaps_) overlaps_->add(*piece);
 }
 
-void Recorder::impact(const Impact& impact) {
+void Recorder::put_on_clock(Impact& impact) const {
+  impact.time = world_.epoch + impact.elapsed;
+  if (world_.epoch != 0.0) impact.time_error_bound += kUnitRoundoff * std::abs(impact.time);
+}
+
+void Recorder::event(double time, const std::string& name, int direction) {
+  result_.events.push_back({world_.epoch + time, time, name, direction});
+}
+
+void Recorder::impact(Impact impact) {
   if (!result_.impacts.empty()) {
     const Impact& last = result_.impacts.back();
-    const double apart = std::abs(impact.time - last.time);
+    const double apart = std::abs(impact.elapsed - last.elapsed);
     const bool is_tie = impact.with != last.with && apart <= impact.time_error_bound + last.time_error_bound;
     if (is_tie && impact.kind == ImpactKind::hit && last.kind == ImpactKind::hit)
       warn_of_tie(last, impact.body, impact.with);
   }
-  result_.impacts.push_back(impact);
+  put_on_clock(impact);
+  result_.impacts.push_back(std::move(impact));
 }
 
-void Recorder::impacts(const std::vector<Impact>& group) {
+void Recorder::impacts(std::vector<Impact> group) {
   impact(group.front());
-  result_.impacts.insert(result_.impacts.end(), group.begin() + 1, group.end());
+  for (Impact& each : std::span(group).subspan(1)) {
+    put_on_clock(each);
+    result_.impacts.push_back(std::move(each));
+  }
 }
 
 void Recorder::warn_of_tie(const Impact& impact, const std::string& body, const std::string& with) {
@@ -126,11 +140,11 @@ void Recorder::warn_of_tie(const Impact& impact, const std::string& body, const 
 
 void Recorder::warn_of_overlap() {
   if (!overlaps_) return;
-  const std::optional<BodyOverlaps::Overlap> overlap = overlaps_->finish(result_.end_time);
+  const std::optional<BodyOverlaps::Overlap> overlap = overlaps_->finish(result_.elapsed);
   if (!overlap) return;
   const auto name = [&](int body) { return "'" + world_.bodies[static_cast<std::size_t>(body)].name + "'"; };
   warn("bodies " + name(overlap->first) + " and " + name(overlap->second) +
-       " overlap from t = " + shortest_text(overlap->time) + " s on: bodies do not meet each other, they pass through");
+       " overlap from t = " + shortest_text(world_.epoch + overlap->time) + " s on: bodies do not meet each other, they pass through");
 }
 
 void Recorder::warn(const std::string& text) {
@@ -144,7 +158,7 @@ void Recorder::end(RunStatus status, const std::string& failure) {
 
 void Recorder::bound_final_errors() {
   for (const auto& course : courses_) {
-    const Eigen::VectorXd bound = course->error_bound(result_.end_time);
+    const Eigen::VectorXd bound = course->error_bound(result_.elapsed);
     for (const int b : course->group().bodies) {
       BodyState& state = result_.final.bodies[static_cast<std::size_t>(b)];
       const int offset = world_.bodies[static_cast<std::size_t>(b)].offset;
@@ -155,10 +169,11 @@ void Recorder::bound_final_errors() {
 }
 
 RunResult Recorder::result() {
-  for (const auto& course : courses_) motion(*course, result_.end_time);
+  result_.end_time = world_.epoch + result_.elapsed;
+  for (const auto& course : courses_) motion(*course, result_.elapsed);
   warn_of_overlap();
-  if (result_.status != RunStatus::stopped && last_sample_ != result_.end_time) sample(result_.end_time);
-  result_.final = sample_at(result_.end_time, std::nullopt);
+  if (result_.status != RunStatus::stopped && last_sample_ != result_.elapsed) sample(result_.elapsed);
+  result_.final = sample_at(result_.elapsed, std::nullopt);
   bound_final_errors();
   for (const auto& course : courses_) {
     const StepStatistics statistics = course->statistics();

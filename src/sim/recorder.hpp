@@ -15,6 +15,8 @@
 namespace trajet {
 
 /// What a run leaves behind: its result, and what its observer wants to hear on the way. It only reads.
+///
+/// The times that it is told are elapsed since the start, s; reports have the scene's too.
 class Recorder {
  public:
   using Courses = std::vector<std::unique_ptr<Course>>;
@@ -23,7 +25,7 @@ class Recorder {
   Recorder(const World& world, const Courses& courses, RunObserver& observer);
 
   /// Whether the observer wants the run to end, or its time is over.
-  bool is_interrupted(double time) { return observer_.interrupted(time) || is_out_of_time(); }
+  bool is_interrupted(double time) { return observer_.interrupted(world_.epoch + time) || is_out_of_time(); }
   bool is_out_of_time() const { return time_limit_.is_over(); }
 
   /// The regular samples behind the last one, up to `time`. False if the run is interrupted; then `time` is how far it
@@ -37,19 +39,19 @@ class Recorder {
   /// The motion of a course on its current Segment up to time t.
   void motion(Course& course, double t);
 
-  void impact(const Impact& impact);
+  void impact(Impact impact);
   /// Impacts at one instant that were solved together.
-  void impacts(const std::vector<Impact>& group);
-  void event(const EventRecord& event) { result_.events.push_back(event); }
+  void impacts(std::vector<Impact> group);
+  void event(double time, const std::string& name, int direction);
   /// Impacts of two pairs may each have been first.
   void warn_of_tie(const Impact& impact, const std::string& body, const std::string& with);
   void warn(const std::string& text);
 
   /// How far the run has come, and what has become of it.
-  double end_time() const { return result_.end_time; }
+  double end_time() const { return result_.elapsed; }
   /// Of the end so far and the last sample, the later: samples run ahead of what happens next.
   double reached_time() const;
-  void set_end_time(double time) { result_.end_time = time; }
+  void set_end_time(double time) { result_.elapsed = time; }
   RunStatus status() const { return result_.status; }
   void end(RunStatus status, const std::string& failure = {});
 
@@ -57,6 +59,8 @@ class Recorder {
   RunResult result();
 
  private:
+  /// Gives an impact the time of the scene's clock, whose digits its bound counts too.
+  void put_on_clock(Impact& impact) const;
   Sample sample_at(double time, std::optional<int> body) const;
   void bound_final_errors();
   void warn_of_overlap();

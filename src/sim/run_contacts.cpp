@@ -40,7 +40,7 @@ void RunLoop::handle_contact(int index, const Pair& met) {
                           "the reach of its farthest point from obstacle '" + obstacle.name +
                           "'; impacts of solids other than points and spheres are not supported yet");
   if (pair.contact.status == ContactStatus::overlapping_at_start) {
-    if (time == world_.start)
+    if (time == 0.0)
       throw InputError(body.where, "body '" + body.name + "' starts inside obstacle '" + obstacle.name + "'");
     return fail(time, "body '" + body.name + "' is inside obstacle '" + obstacle.name + "'");
   }
@@ -50,7 +50,7 @@ void RunLoop::handle_contact(int index, const Pair& met) {
 
   for (const int each : moving.group().bodies) encounters_.bound_times(each, moving);
   Impact impact = describe(world_, pair, moving.state(time));
-  impact.time = time;
+  impact.elapsed = time;
   if (is_hit(pair.contact) && obstacle.on_hit == OnHit::bounce) {
     if (lasting_contacts_.slides_onto(pair.id, moving, moving.state(time))) {
       encounters_.pass(pair.id, moving);
@@ -77,15 +77,15 @@ void RunLoop::handle_contact(int index, const Pair& met) {
 bool RunLoop::goes_on_from_contact(int index, const Pair& pair, const Impact& impact) {
   Course& moving = course(index);
   const int offset = body_of(pair).offset;
-  const Eigen::VectorXd rate = moving.rate(impact.time, moving.state(impact.time));
+  const Eigen::VectorXd rate = moving.rate(impact.elapsed, moving.state(impact.elapsed));
   const double speed = impact.normal.dot(rate.segment<3>(offset));
   const double pull = -impact.normal.dot(rate.segment<3>(offset + 3));
-  const bool has_left = pull < 0.0 && pair.memory.contact_time == impact.time;
+  const bool has_left = pull < 0.0 && pair.memory.contact_time == impact.elapsed;
   if (speed <= 0.0 && !has_left) return false;
   double height = 0.0;
   if (speed > 0.0) {
     // of the flight: u^2 / (2 g), or where nothing pulls back, that on the Segment
-    const double on_segment = speed * std::abs(moving.segment().t1() - impact.time);
+    const double on_segment = speed * std::abs(moving.segment().t1() - impact.elapsed);
     height = pull > 0.0 ? speed * speed / (2.0 * pull) : on_segment;
   } else {
     // What the law carries away from the contact that it has just left has not hit: the Segment goes astray.
@@ -103,7 +103,7 @@ bool RunLoop::goes_on_from_contact(int index, const Pair& pair, const Impact& im
 void RunLoop::bounce(int index, Pair pair, Impact impact) {
   Course& moving = course(index);
   const World::Body& body = body_of(pair);
-  const double t = impact.time;
+  const double t = impact.elapsed;
   recorder_.sample(t, pair.id.body);
 
   Instant instant(moving, t);
@@ -123,7 +123,7 @@ void RunLoop::bounce(int index, Pair pair, Impact impact) {
   // else it lies there, or its flight is so low that the Segment does not show it
   const double pull = -impact.normal.dot(rate_before.segment<3>(body.offset + 3));
   const double speed = -approach.dot(impact.normal);
-  const double no_time = kUnitRoundoff * (world_.end - world_.start);
+  const double no_time = kUnitRoundoff * world_.duration;
   const double lowest_fall = std::max(pair.contact.memory.tolerance, std::abs(pull) * no_time * no_time);
   const bool is_hit = speed > 0.0 && !is_lying(speed, std::max(0.0, pull), lowest_fall);
   if (!group.empty()) {

@@ -35,7 +35,7 @@ Recorder::Courses make_courses(const World& world) {
 
 RunLoop::RunLoop(const World& world, RunObserver& observer)
     : world_(world),
-      direction_(world.end < world.start ? -1.0 : 1.0),
+      direction_(world.direction()),
       courses_(make_courses(world)),
       encounters_(world),
       recorder_(world, courses_, observer),
@@ -71,15 +71,15 @@ RunLoop::Incident RunLoop::next(int index) const {
 }
 
 double RunLoop::next_time() const {
-  if (!has_started_) return world_.start;
-  return running_ && !agenda_.empty() ? next(agenda_.next()).time : recorder_.end_time();
+  if (!has_started_) return world_.epoch;
+  return world_.epoch + (running_ && !agenda_.empty() ? next(agenda_.next()).time : recorder_.end_time());
 }
 
 void RunLoop::start() {
   has_started_ = true;
-  double time = world_.start;
+  double time = 0.0;
   if (!recorder_.sample_until(time)) return interrupt(time);
-  if (world_.end == world_.start) return;
+  if (world_.duration == 0.0) return;
   for (std::size_t i = 0; i < courses_.size() && running_; ++i) advance(static_cast<int>(i));
 }
 
@@ -132,7 +132,7 @@ void RunLoop::fail_if_blown_up() {
     const Eigen::VectorXd q = courses_[g]->state(t);
     // a state that doubles in so small a part of the run may be on its way to infinity
     constexpr double kNoTime = 1e-6;
-    const double elapsed = std::abs(t - world_.start);
+    const double elapsed = std::abs(t);
     if (!(q.cwiseAbs().array() < kNoTime * elapsed * courses_[g]->rate(t, q).cwiseAbs().array()).any()) continue;
     const std::string reason = describe_blow_up(world_, static_cast<int>(g), t, q);
     if (!reason.empty()) return fail(t, reason);
@@ -145,7 +145,7 @@ RunResult RunLoop::result() {
   return result;
 }
 
-void RunLoop::enqueue(int index) { agenda_.add(direction_ * (next(index).time - world_.start), index); }
+void RunLoop::enqueue(int index) { agenda_.add(direction_ * next(index).time, index); }
 
 void RunLoop::advance(int index) {
   Course& moving = course(index);
@@ -190,7 +190,7 @@ void RunLoop::handle_event(int index, double time) {
   if (found.undecided) return fail(time, "whether event '" + event.name + "' happens cannot be decided");
   if (last_events_[static_cast<std::size_t>(index)].count_at(time) > kMaxEventsAtOnce)
     return fail(time, "event '" + event.name + "' happens again and again at one instant");
-  recorder_.event({time, event.name, found.direction});
+  recorder_.event(time, event.name, found.direction);
   switch (event.action) {
     case EventAction::stop:
       // when all that happens at this instant is done
@@ -211,12 +211,12 @@ void RunLoop::handle_event(int index, double time) {
 std::string RunLoop::accumulates(int index, int event, double time) {
   Accumulation& times = accumulations_[static_cast<std::size_t>(event)];
   times.happen(time);
-  const double rounding = kUnitRoundoff * std::max(std::abs(time), std::abs(time - world_.start));
+  const double rounding = kUnitRoundoff * std::abs(time);
   const bool is_stopped = course(index).has_turned(event) && std::abs(times.interval()) <= kSameTime * rounding;
   const std::optional<double> limit = is_stopped ? times.extrapolated_limit() : times.limit(kNearLimit * rounding);
   if (!limit && !is_stopped) return {};
   return "event '" + world_.events[static_cast<std::size_t>(event)].name +
-         "' happens faster and faster, infinitely often before t = " + shortest_text(limit.value_or(time)) +
+         "' happens faster and faster, infinitely often before t = " + shortest_text(world_.epoch + limit.value_or(time)) +
          " s: what its set turns back or stops, the law drives across zero again; the motion behind that time is not "
          "followed";
 }

@@ -36,7 +36,7 @@ void warn_of_hidden_ties(const World& world, const Encounters& encounters, const
     if (obstacle_of(world, handled).on_hit == OnHit::bounce && body != handled.id.body) continue;
     for (const Pair& other : encounters.pairs(body)) {
       if (other.id == handled.id || other.contact.status != ContactStatus::hit) continue;
-      if (std::abs(other.contact.time - impact.time) <= impact.time_error_bound + other.contact.time_error_bound)
+      if (std::abs(other.contact.time - impact.elapsed) <= impact.time_error_bound + other.contact.time_error_bound)
         recorder.warn_of_tie(impact, world.bodies[static_cast<std::size_t>(body)].name, obstacle_of(world, other).name);
     }
   }
@@ -53,12 +53,12 @@ bool settle_other_contacts(const World& world, const Encounters& encounters, con
     if (velocity.dot(pair.contact.normal) < -rounding) continue;
     ContactMemory memory = pair.contact.memory;
     memory.side = pair.contact.side_before;
-    memory.contact_time = impact.time;
+    memory.contact_time = impact.elapsed;
     instant.memories.emplace_back(id, memory);
     const OnHit on_hit = obstacle_of(world, pair).on_hit;
     if (on_hit == OnHit::bounce && is_hit(pair.contact)) continue;
     Impact passed = describe(world, pair, instant.before());
-    passed.time = impact.time;
+    passed.elapsed = impact.elapsed;
     recorder.impact(passed);
     stops = stops || (on_hit == OnHit::stop && is_hit(pair.contact));
   }

@@ -49,8 +49,8 @@ class ComparisonRun {
   Comparison compare() {
     result_.scene = base_.scene;
     result_.title = base_.title;
-    result_.start_time = base_.start;
-    result_.end_time = base_.end;
+    result_.epoch = base_.epoch;
+    result_.duration = base_.duration;
     result_.parameters = base_.parameters;
     result_.warnings = base_.warnings;
     for (const World::Body& body : base_.bodies) result_.turns = result_.turns || body.rotation;
@@ -119,7 +119,7 @@ class ComparisonRun {
 
   MethodOptions with_steps(const MethodInfo& method, long count) const {
     MethodOptions told = options(method);
-    told.step = std::abs(base_.end - base_.start) / static_cast<double>(count);
+    told.step = std::abs(base_.duration) / static_cast<double>(count);
     told.steps.clear();
     return told;
   }
@@ -281,7 +281,7 @@ class ComparisonRun {
     constexpr double kTolerance = 1e-9;  // well above the rounding of a formula, well below what is meant
     const Eigen::VectorXd& start = base_.groups[static_cast<std::size_t>(group)].start;
     Eigen::VectorXd exact;
-    result_.reference->state(group, base_.start, exact);
+    result_.reference->state(group, 0.0, exact);
     align_orientations(base_, group, exact, start);
     const auto own = start.segment(offset, size);
     if ((exact.segment(offset, size) - own).cwiseAbs().maxCoeff() > kTolerance * (1.0 + own.cwiseAbs().maxCoeff()))
@@ -292,7 +292,6 @@ class ComparisonRun {
     ComparisonRow row;
     row.method = way.method->name;
     if (compared_orientations().front() != nullptr) row.orientation = orientation_info(way.options.orientation).name;
-    row.end_time = row.compared_until = base_.start;
     try {
       const World world = this->world(way.options);
       row.step = world.step_options.step;
@@ -316,7 +315,7 @@ class ComparisonRun {
     const RunResult run = trajet::run(world, &observers);
     row.status = run.status;
     row.failure = run.failure;
-    row.end_time = run.end_time;
+    row.elapsed = run.elapsed;
     row.impacts = run.impacts.size();
     row.statistics = run.statistics;
     if (!row.succeeded()) return;

@@ -22,33 +22,32 @@ void raise(Deviation& maximum, const Deviation& value) {
 
 void ErrorMeter::begin(const World& world) {
   world_ = &world;
-  start_ = world.start;
-  sample_ = world.end < world.start ? -world.sample : world.sample;
+  sample_ = world.direction() * world.sample;
   rotation_ = RotationMeter(world);
   constexpr double kLongestHistory = 500.0;
-  history_stride_ = std::max(1L, std::lround(std::abs(world.end - world.start) / world.sample / kLongestHistory));
+  history_stride_ = std::max(1L, std::lround(std::abs(world.duration) / world.sample / kLongestHistory));
   groups_.resize(world.groups.size());
   for (std::size_t g = 0; g < groups_.size(); ++g) {
     Group& group = groups_[g];
-    group.until = start_;
+    group.until = 0.0;
     group.is_position.resize(static_cast<std::size_t>(world.groups[g].start.size()));
     for (const int b : world.groups[g].bodies) {
       const int position = world.bodies[static_cast<std::size_t>(b)].slice().position_index();
       std::fill_n(group.is_position.begin() + position, 3, true);
     }
     state_ = world.groups[g].start;
-    read_reference(static_cast<int>(g), start_);
+    read_reference(static_cast<int>(g), 0.0);
     group.at_end = deviation(group);
     raise(at_samples_, group.at_end);
     raise(at_nodes_, group.at_end);
-    note_rotation(static_cast<int>(g), 0, start_);
+    note_rotation(static_cast<int>(g), 0, 0.0);
     group.rotation_at_end = rotation_.measure(static_cast<int>(g), state_, reference_state_);
   }
 }
 
 void ErrorMeter::motion(const MotionPiece& piece) {
   Group& group = groups_[static_cast<std::size_t>(piece.group)];
-  if (piece.begins_anew && reference_.ends_at_jumps() && piece.from != start_) group.open = false;
+  if (piece.begins_anew && reference_.ends_at_jumps() && piece.from != 0.0) group.open = false;
   if (!group.open) return;
 
   const double forward = sample_ < 0.0 ? -1.0 : 1.0;
@@ -61,7 +60,7 @@ void ErrorMeter::motion(const MotionPiece& piece) {
   // Samples on (from, to]; one that misses the end by rounding is the end.
   constexpr double kRounding = 1e-9;
   while (true) {
-    const double t = start_ + static_cast<double>(group.next_sample) * sample_;
+    const double t = static_cast<double>(group.next_sample) * sample_;
     const double beyond = forward * (t - to);
     if (beyond > kRounding * std::abs(sample_)) break;
     raise(at_samples_, deviation(piece, beyond > 0.0 ? to : t));

@@ -52,7 +52,6 @@ class ErrorMeter : public RunObserver {
   Reference& reference_;
   const World& reference_world_;
   const World* world_ = nullptr;  // while the run lasts
-  double start_ = 0.0;            // s
   double sample_ = 0.0;           // s, signed
   std::vector<Group> groups_;
   Deviation at_samples_;

@@ -8,8 +8,8 @@
 namespace trajet {
 namespace {
 
-ReferenceError not_finite(const std::string& name, double t, const SourceLocation& where) {
-  return ReferenceError(where, "the closed form of '" + name + "' is not finite at t = " + shortest_text(t) + " s");
+ReferenceError not_finite(const std::string& name, double clock, const SourceLocation& where) {
+  return ReferenceError(where, "the closed form of '" + name + "' is not finite at t = " + shortest_text(clock) + " s");
 }
 
 Quaternion evaluate(const World::ClosedRotation::Orientation& closed_form, Evaluator<double>& evaluator, double t) {
@@ -30,7 +30,8 @@ Quaternion evaluate(const World::ClosedRotation::Orientation& closed_form, Evalu
 
 }  // namespace
 
-ClosedFormReference::ClosedFormReference(const World& world) : closed_forms_(world.exact) {
+ClosedFormReference::ClosedFormReference(const World& world)
+    : epoch_(world.epoch), closed_forms_(world.exact) {
   for (const World::Group& group : world.groups) sizes_.push_back(group.start.size());
   for (const World::ClosedForm& closed_form : closed_forms_) evaluators_.emplace_back(closed_form.value);
   for (const World::ClosedRotation& closed_form : world.exact_rotations) {
@@ -44,19 +45,19 @@ ClosedFormReference::ClosedFormReference(const World& world) : closed_forms_(wor
   }
 }
 
-void ClosedFormReference::Rotation::write(double t, Eigen::VectorXd& q) {
+void ClosedFormReference::Rotation::write(double t, double epoch, Eigen::VectorXd& q) {
   const OrientationLayout& layout = place.layout;
   Quaternion q_WB = Quaternion::Identity();
   if (orientation) {
     q_WB = evaluate(*closed_form.orientation, *orientation, t);
-    if (!q_WB.coeffs().allFinite()) throw not_finite(body + ".orientation", t, closed_form.orientation->where);
+    if (!q_WB.coeffs().allFinite()) throw not_finite(body + ".orientation", epoch + t, closed_form.orientation->where);
     layout.put(q_WB, q.data() + place.offset);
   }
   if (!angular_velocity) return;
   Vector3 w;
   (*angular_velocity)(t, nullptr, w.data());
   const World::ClosedRotation::AngularVelocity& given = *closed_form.angular_velocity;
-  if (!w.allFinite()) throw not_finite(body + (given.frame == Frame::world ? ".w" : ".w_body"), t, given.where);
+  if (!w.allFinite()) throw not_finite(body + (given.frame == Frame::world ? ".w" : ".w_body"), epoch + t, given.where);
   if (given.frame != layout.frame) w = rotate<double>(given.frame == Frame::body ? q_WB : q_WB.conjugate(), w);
   q.segment<3>(place.offset + layout.size()) = w;
 }
@@ -68,15 +69,15 @@ void ClosedFormReference::state(int group, double t, Eigen::VectorXd& q) {
     if (closed_form.group != group) continue;
     const auto size = static_cast<Eigen::Index>(closed_form.value.outputs.size());
     evaluators_[i](t, nullptr, q.data() + closed_form.offset);
-    if (!q.segment(closed_form.offset, size).allFinite()) throw not_finite(closed_form.name, t, closed_form.where);
+    if (!q.segment(closed_form.offset, size).allFinite()) throw not_finite(closed_form.name, epoch_ + t, closed_form.where);
   }
   for (Rotation& rotation : rotations_)
-    if (rotation.group == group) rotation.write(t, q);
+    if (rotation.group == group) rotation.write(t, epoch_, q);
 }
 
 void RecordedReference::begin(const World& world) {
-  direction_ = world.end < world.start ? -1.0 : 1.0;
-  end_ = world.start;
+  direction_ = world.direction();
+  end_ = 0.0;
   starts_.clear();
   for (const World::Group& group : world.groups) starts_.push_back(group.start);
   pieces_.assign(world.groups.size(), {});

@@ -40,8 +40,9 @@ class CompareFigure {
       : comparison_(comparison),
         styles_(detail::row_styles(comparison)),
         motions_(comparison, world, motions, component, styles_),
-        rotations_(comparison, styles_) {
-    if (!component) strip_ = motions_.strip();
+        rotations_(comparison, styles_),
+        strip_(motions_.strip()) {
+    if (component) strip_ = detail::PoseStrip(detail::ShownClock{world.epoch, world.duration});
     if (const double size = motions_.reference_size(); size > 0.0) largest_error_ = detail::kMostError * size;
     notes_ = detail::compare_notes(comparison, styles_, largest_error_,
                                    [this](const ComparisonRow& row) { return motions_.title(row); });

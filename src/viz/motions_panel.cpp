@@ -111,7 +111,7 @@ std::string MotionsPanel::title(const ComparisonRow& row) const {
   if (row.rtol) return fmt::format("{}, rtol {:g}", style(row).name, *row.rtol);
   if (!row.succeeded()) return row.step ? fmt::format("{}, step {:g} s", style(row).name, *row.step) : style(row).name;
   // into how many the whole time is divided: the run may have ended before
-  const double duration = std::abs(comparison_.end_time - comparison_.start_time);
+  const double duration = std::abs(comparison_.duration);
   const long count = row.step ? std::lround(duration / *row.step) : row.statistics.steps;
   return fmt::format("{}, {} {}", style(row).name, count, count == 1 ? "step" : "steps");
 }
@@ -128,11 +128,10 @@ double MotionsPanel::find_reference_end() const {
   };
   for (const ComparisonRow& row : comparison_.rows)
     if (row.succeeded() && (nearest == nullptr || error_of(row) < error_of(*nearest))) nearest = &row;
-  return closed_form_end(nearest == nullptr ? comparison_.start_time : nearest->compared_until);
+  return closed_form_end(nearest == nullptr ? 0.0 : nearest->compared_until);
 }
 
 double MotionsPanel::closed_form_end(double until) const {
-  const double start = comparison_.start_time;
   Eigen::VectorXd q;
   const auto is_behind_a_plane = [&](double t) {
     for (const World::Body& body : world_.bodies) {
@@ -146,10 +145,10 @@ double MotionsPanel::closed_form_end(double until) const {
     }
     return false;
   };
-  if (is_behind_a_plane(start)) return until;
-  double front = start;
+  if (is_behind_a_plane(0.0)) return until;
+  double front = 0.0;
   for (int k = 1; k <= kReferencePoints; ++k) {
-    double behind = start + (until - start) * k / kReferencePoints;
+    double behind = until * k / kReferencePoints;
     if (is_behind_a_plane(behind)) {
       constexpr int kHalvings = 30;
       for (int i = 0; i < kHalvings; ++i) {
@@ -177,7 +176,7 @@ MotionsPanel::States MotionsPanel::reference_states(int group) const {
   States states;
   Eigen::VectorXd q;
   for (int k = 0; k <= kReferencePoints; ++k) {
-    states.times.push_back(comparison_.start_time + (reference_end_ - comparison_.start_time) * k / kReferencePoints);
+    states.times.push_back(reference_end_ * k / kReferencePoints);
     comparison_.reference->state(group, states.times.back(), q);
     states.values.emplace_back(q.begin(), q.end());
   }
@@ -187,7 +186,7 @@ MotionsPanel::States MotionsPanel::reference_states(int group) const {
 std::vector<Pose> MotionsPanel::reference_poses(const World::Body& body) const {
   std::vector<Pose> poses;
   Eigen::VectorXd q;
-  for (const double t : pose_times(comparison_.start_time, reference_end_)) {
+  for (const double t : pose_times(0.0, reference_end_)) {
     comparison_.reference->state(body.group, t, q);
     poses.push_back(pose(body, t, q));
     if (!poses.back().p_WB.allFinite() || !poses.back().R_WB.allFinite()) return {};
@@ -275,7 +274,7 @@ std::string MotionsPanel::plot_script(const Frame& frame) const {
     std::vector<std::vector<double>> rows;
     for (std::size_t p = 0; p < states.times.size(); ++p) {
       rows.emplace_back();
-      if (components_.size() == 1) rows.back().push_back(states.times[p]);
+      if (components_.size() == 1) rows.back().push_back(clock().time(states.times[p]));
       for (const int i : components_) rows.back().push_back(states.values[p][static_cast<std::size_t>(offset + i)]);
       for (std::size_t k = 0; k < ranges.size(); ++k) ranges[k].include(rows.back()[k]);
     }
@@ -297,7 +296,7 @@ std::string MotionsPanel::plot_script(const Frame& frame) const {
       reference, ranges, is_position ? kLeastExtent * std::max(reference[0].extent(), reference[1].extent()) : 0.0);
   for (std::size_t k = 0; k < shown.size(); ++k) {
     const char* name = k == 0 ? "x" : "y";
-    const std::string label = labels_.size() == 1 ? (k == 0 ? "time [s]" : labels_[0]) : labels_[k];
+    const std::string label = labels_.size() == 1 ? (k == 0 ? clock().label() : labels_[0]) : labels_[k];
     script += axis(name, shown[k].padded(), 5) + fmt::format("set {}label {}\n", name, quoted(label));
   }
   std::string plot;
@@ -316,7 +315,7 @@ std::string MotionsPanel::plot_script(const Frame& frame) const {
 }
 
 PoseStrip MotionsPanel::strip() const {
-  PoseStrip strip;
+  PoseStrip strip(clock());
   for (const std::size_t b : solids_) {
     const World::Body& body = world_.bodies[b];
     const std::string of = solids_.size() > 1 ? body.name + ": " : "";

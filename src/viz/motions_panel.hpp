@@ -62,6 +62,8 @@ class MotionsPanel {
   std::string space_script(const Frame& frame, const FigureSize& size) const;
   std::string plot_script(const Frame& frame) const;
 
+  ShownClock clock() const { return {world_.epoch, world_.duration}; }
+
   const Comparison& comparison_;
   const World& world_;
   const std::vector<RowMotion>& motions_;

@@ -76,11 +76,11 @@ int significant_degree(const Segment<>& segment, int component, double duration)
   return degree;
 }
 
-/// Appends a piece as numbers: from, to, the Segment's t0, the degrees of all components, six to a number as its digits
+/// Appends a piece as numbers, its times those of the clock that shows `epoch` at the start: from, to, the Segment's t0, the degrees of all components, six to a number as its digits
 /// to the base 256, the first the least, and then the coefficients of each component, (t - t0)^0 first.
-void append(std::vector<double>& numbers, const MotionRecord::Piece& piece) {
+void append(std::vector<double>& numbers, const MotionRecord::Piece& piece, double epoch) {
   const Segment<>& segment = piece.segment;
-  numbers.insert(numbers.end(), {piece.from, piece.to, segment.t0()});
+  numbers.insert(numbers.end(), {epoch + piece.from, epoch + piece.to, epoch + segment.t0()});
   std::vector<int> degrees;
   for (int i = 0; i < segment.dimension(); ++i) {
     degrees.push_back(significant_degree(segment, i, std::abs(segment.duration())));
@@ -92,7 +92,7 @@ void append(std::vector<double>& numbers, const MotionRecord::Piece& piece) {
 }
 
 /// Writes all pieces of a group, one after the other, as base64.
-void write_packed(const std::vector<MotionRecord::Piece>& pieces, ScriptText& text) {
+void write_packed(const std::vector<MotionRecord::Piece>& pieces, double epoch, ScriptText& text) {
   constexpr std::size_t kWhole = 3;  // so many doubles have a whole number of base64's groups of three bytes
   std::vector<double> numbers;
   const auto write = [&](std::size_t count) {
@@ -100,7 +100,7 @@ void write_packed(const std::vector<MotionRecord::Piece>& pieces, ScriptText& te
     numbers.erase(numbers.begin(), numbers.begin() + static_cast<std::ptrdiff_t>(count));
   };
   for (const MotionRecord::Piece& piece : pieces) {
-    append(numbers, piece);
+    append(numbers, piece, epoch);
     write(numbers.size() - numbers.size() % kWhole);
   }
   write(numbers.size());
@@ -221,7 +221,7 @@ void write_page_data(const PageRun& run, ScriptText& text) {
   for (std::size_t g = 0; g < world.groups.size(); ++g) {
     text.add((g == 0 ? R"({"dimension":)" : R"(,{"dimension":)") + std::to_string(world.groups[g].start.size()));
     text.add(R"(,"pieces":")");
-    write_packed(run.motion.pieces(static_cast<int>(g)), text);
+    write_packed(run.motion.pieces(static_cast<int>(g)), world.epoch, text);
     text.add(R"("})");
   }
   text.add("]}");

@@ -50,7 +50,7 @@ std::vector<Pose> poses_at(const MotionRecord& record, const World::Body& body, 
 
 std::vector<Pose> make_poses(const MotionRecord& record, const World::Body& body) {
   const auto& pieces = record.pieces(body.group);
-  if (pieces.empty()) return poses_at(record, body, {record.world().start});
+  if (pieces.empty()) return poses_at(record, body, {0.0});
   return poses_at(record, body, pose_times(pieces.front().from, pieces.back().to));
 }
 

@@ -83,7 +83,7 @@ std::string PoseStrip::script(const Frame& frame, const FigureSize& size) const 
     add_label(row.title, 0.0, bottom + cell.y() - 0.4 * kTitle, "left tc '#505050'");
     for (std::size_t p = 0; p < row.poses.size(); ++p) {
       const Vector2 center(cell.x() * (static_cast<double>(p) + 0.5), bottom + kTimes + 0.5 * room.y());
-      if (shows_times) add_label(short_text(row.poses[p].time) + " s", center.x(), bottom + 0.4 * kTimes, "center");
+      if (shows_times) add_label(short_text(clock_.time(row.poses[p].time)) + " s", center.x(), bottom + 0.4 * kTimes, "center");
       if (!(growth(row.poses[p]) <= kMostGrowth)) {
         const double times = growth(row.poses[p]);
         add_label(std::isfinite(times) ? fmt::format("× {:.2g}", times) : "not finite", center.x(), center.y(),

@@ -5,6 +5,7 @@
 
 #include "drawing.hpp"
 #include "plot_panel.hpp"
+#include "shown_clock.hpp"
 #include "trajet/viz/gnuplot.hpp"
 
 namespace trajet::detail {
@@ -13,6 +14,7 @@ namespace trajet::detail {
 /// have one scale, so that growth is seen.
 class PoseStrip {
  public:
+  explicit PoseStrip(const ShownClock& clock) : clock_(clock) {}
   void add_row(const std::string& title, const Look& look, const std::vector<Pose>& poses, Color color);
   bool is_empty() const { return rows_.empty(); }
   /// Pixels that a row should have.
@@ -29,6 +31,7 @@ class PoseStrip {
     std::vector<Pose> poses;
     Color color;
   };
+  ShownClock clock_;
   std::vector<Row> rows_;
 };
 

@@ -32,12 +32,12 @@ constexpr Quantity kQuantities[] = {
     {"relative drift of momentum", [](const RotationDeviation& deviation) { return deviation.momentum; }}};
 
 /// Without those that are 0, as at the start: they have no logarithm.
-std::vector<std::vector<double>> points(const ComparisonRow& row, const Quantity& quantity) {
+std::vector<std::vector<double>> points(const ComparisonRow& row, const Quantity& quantity, const ShownClock& clock) {
   std::vector<std::vector<double>> points;
   for (const RotationSample& sample : row.rotation_history)
     if (const auto value = quantity.of(sample.deviation); value && *value > 0.0) {
       if (!(*value <= kMost)) break;
-      points.push_back({sample.time, std::max(*value, kLeast)});
+      points.push_back({clock.time(sample.time), std::max(*value, kLeast)});
     }
   return points;
 }
@@ -45,7 +45,7 @@ std::vector<std::vector<double>> points(const ComparisonRow& row, const Quantity
 }  // namespace
 
 RotationPanels::RotationPanels(const Comparison& comparison, const std::vector<RowStyle>& styles)
-    : start_time_(comparison.start_time) {
+    : clock_{comparison.epoch, comparison.duration} {
   if (!comparison.turns) return;
   for (const Quantity& quantity : kQuantities) {
     Panel panel{quantity.title, {}};
@@ -54,7 +54,7 @@ RotationPanels::RotationPanels(const Comparison& comparison, const std::vector<R
       int dash = 1;
       for (const ComparisonRow& row : comparison.rows) {
         if (!style.is_of(row) || !row.succeeded()) continue;
-        std::vector<std::vector<double>> line = points(row, quantity);
+        std::vector<std::vector<double>> line = points(row, quantity, clock_);
         for (const auto& point : line) largest = std::max(largest, point[1]);
         if (!line.empty()) panel.lines.push_back({std::move(line), style.color, dash++});
       }
@@ -66,7 +66,8 @@ RotationPanels::RotationPanels(const Comparison& comparison, const std::vector<R
 std::string RotationPanels::script(int bottom, const FigureSize& size) const {
   std::string script =
       "set termoption enhanced\nunset label\nunset key\nset border lw 1.2 lc '#404040'\n"
-      "set grid lc '#d8d8d8' lt 1 lw 0.8\nunset logscale\nset logscale y\nset xlabel 'time [s]'\nunset ylabel\n";
+      "set grid lc '#d8d8d8' lt 1 lw 0.8\nunset logscale\nset logscale y\nunset ylabel\n";
+  script += "set xlabel " + quoted(clock_.label()) + "\n";
   constexpr double kLeft = 70.0, kGap = 88.0, kRight = 20.0, kBelow = 62.0, kAbove = 30.0;  // pixels
   const auto count = static_cast<double>(panels_.size());
   const double width = (size.width - kLeft - kRight - (count - 1.0) * kGap) / count;
@@ -74,7 +75,7 @@ std::string RotationPanels::script(int bottom, const FigureSize& size) const {
     const Panel& panel = panels_[p];
     const double left = kLeft + static_cast<double>(p) * (width + kGap);
     Range times, values;
-    times.include(start_time_);
+    times.include(clock_.time(0.0));
     std::string plot;
     for (const Line& line : panel.lines) {
       for (const auto& point : line.points) {

@@ -5,6 +5,7 @@
 
 #include "plot_panel.hpp"
 #include "row_style.hpp"
+#include "shown_clock.hpp"
 #include "trajet/viz/gnuplot.hpp"
 
 namespace trajet::detail {
@@ -32,7 +33,7 @@ class RotationPanels {
     std::string title;
     std::vector<Line> lines;
   };
-  double start_time_;  // s
+  ShownClock clock_;
   std::vector<Panel> panels_;
 };
 

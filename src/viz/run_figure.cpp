@@ -10,6 +10,7 @@
 #include "path_panel.hpp"
 #include "plot_panel.hpp"
 #include "pose_strip.hpp"
+#include "shown_clock.hpp"
 #include "trajet/portable.hpp"
 #include "trajet/viz/curve.hpp"
 
@@ -106,7 +107,7 @@ std::vector<Curve> make_curves(const MotionRecord& record) {
 class RunFigure {
  public:
   RunFigure(const RunResult& result, const MotionRecord& record)
-      : result_(result), world_(record.world()), curves_(make_curves(record)), paths_(result, record, curves_) {
+      : result_(result), world_(record.world()), curves_(make_curves(record)), paths_(result, record, curves_), strip_(clock()) {
     // a run that ends at its start has nothing to show against time
     const bool moves = ranges::any_of(curves_, [](const Curve& curve) { return !curve.times.empty(); });
     if (moves || paths_.is_empty()) body_count_ = std::min(world_.bodies.size(), kMostBodies);
@@ -244,7 +245,7 @@ class RunFigure {
                       bool is_last, const std::string& lines) {
     std::string& script = figure_.script;
     script += detail::place(frame) + detail::axis("x", times, 6) + detail::axis("y", values.padded(), 5);
-    script += fmt::format("set ylabel {}\nset xlabel {}\n", quoted(label), quoted(is_last ? "time [s]" : ""));
+    script += fmt::format("set ylabel {}\nset xlabel {}\n", quoted(label), quoted(is_last ? clock().label() : ""));
     script += "set key at graph 1, graph 1 right bottom Left reverse horizontal samplen 3\n";
     script += "plot " + lines + "\nunset arrow\n";
     end_panel();
@@ -256,7 +257,8 @@ class RunFigure {
     std::size_t count = 0;
     for (const Impact& impact : result_.impacts)
       if (impact.body == body && count++ < kMostImpactLines)
-        script += fmt::format("set arrow from {0}, graph 0 to {0}, graph 1 nohead ls 9 back\n", impact.time);
+        script += fmt::format("set arrow from {0}, graph 0 to {0}, graph 1 nohead ls 9 back\n",
+                              clock().time(impact.elapsed));
     return script;
   }
 
@@ -266,10 +268,12 @@ class RunFigure {
     prints_title_ = false;
   }
 
+  detail::ShownClock clock() const { return {world_.epoch, world_.duration}; }
+
   Range times(const Curve& curve) const {
     Range range;
-    for (const double t : curve.times) range.include(t);
-    if (range.extent() == 0.0) return {world_.start, world_.start + 1.0};
+    for (const double t : curve.times) range.include(clock().time(t));
+    if (range.extent() == 0.0) return {clock().time(0.0), clock().time(0.0) + 1.0};
     return range;
   }
 
@@ -300,7 +304,7 @@ class RunFigure {
       std::vector<std::vector<double>> rows;
       Range values;
       for (std::size_t p = 0; p < curve.times.size(); ++p) {
-        rows.push_back({curve.times[p]});
+        rows.push_back({clock().time(curve.times[p])});
         for (int i = 0; i < 3; ++i) {
           const double value = component(curve, p, quantity.is_rate, quantity.index + i);
           rows.back().push_back(value);
@@ -329,7 +333,7 @@ class RunFigure {
       std::vector<std::vector<double>> rows;
       Range values;
       for (std::size_t p = 0; p < curve.times.size(); ++p) {
-        rows.push_back({curve.times[p], component(curve, p, false, state.offset)});
+        rows.push_back({clock().time(curve.times[p]), component(curve, p, false, state.offset)});
         values.include(rows.back()[1]);
       }
       const std::string name = fmt::format("state{}", s);

@@ -14,7 +14,7 @@ class Follower : public RunObserver {
  public:
   void begin(const World& world) override {
     for (std::size_t g = 0; g < world.groups.size(); ++g) {
-      times[static_cast<int>(g)] = world.start;
+      times[static_cast<int>(g)] = 0.0;
       states[static_cast<int>(g)] = world.groups[g].start;
     }
   }

@@ -28,7 +28,7 @@ class ProgramBuilder {
     std::array<int, 3> nodes{};
   };
 
-  /// Programs over the inputs 0 … input_count - 1; 0 is t.
+  /// Programs over the inputs 0 … input_count - 1; 0 is t, the time elapsed.
   explicit ProgramBuilder(int input_count);
   /// Opens a program again, to compute more from what it computes. It has no outputs yet: see `output_of_base`.
   explicit ProgramBuilder(const Program& base);
@@ -42,6 +42,9 @@ class ProgramBuilder {
   Value compile_scalar(const Expression& formula, const Symbols& symbols);
   Value compile_vector(const Expression& formula, const Symbols& symbols);
 
+  /// The node of a clock that shows `epoch` where input 0, the time elapsed, is 0. A difference between it and a
+  /// constant, and a comparison, keep the digits of the time elapsed.
+  int clock(double epoch);
   Value inputs(const std::array<int, 3>& indices) const;
   Value constant(double value);
   /// numerator / denominator, scalar or vector by scalar: a force and a mass make an acceleration.

@@ -37,6 +37,10 @@ struct ExtendedConstant {
     result.remainder = 0.0 - remainder;  // none stays none, and no -0
     return result;
   }
+  friend ExtendedConstant operator+(const ExtendedConstant& a, const ExtendedConstant& b) {
+    const Extended sum = a.as<Extended>() + b.as<Extended>();
+    return {static_cast<double>(sum), sum};
+  }
   bool operator==(const ExtendedConstant&) const = default;
 };
 

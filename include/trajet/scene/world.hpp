@@ -23,7 +23,7 @@ namespace trajet {
 /// Bodies, extra states and events that refer to each other form a group, which is integrated together; groups know
 /// nothing of each other and keep steps of their own. The state of a group is, for each of its bodies, position and
 /// velocity (m, m/s; world frame) and, if it turns, orientation and angular velocity (rad/s), then its extra states.
-/// Programs take t and that state.
+/// Programs take t, elapsed since the start, and that state.
 struct World {
   /// How a body turns.
   struct Rotation {
@@ -140,11 +140,16 @@ struct World {
     std::map<int, Sphere> spheres;                 ///< of the obstacles that are spheres
   };
 
+  /// +1, or -1 for a run backward in time.
+  double direction() const { return duration < 0.0 ? -1.0 : 1.0; }
+
   std::string scene;  ///< file name
   std::string title;
-  double start = 0.0;   ///< s
-  double end = 0.0;     ///< s; before `start` for a run backward in time
-  double sample = 0.0;  ///< s, > 0
+  /// The time at the start, s, as the scene's `t` has it. Everything behind the scene counts from there: the t of
+  /// programs, of Segments and steps is the time elapsed, whose digits do not depend on the year.
+  double epoch = 0.0;
+  double duration = 0.0;  ///< s; negative for a run backward in time
+  double sample = 0.0;    ///< s, > 0
   const MethodInfo* method = nullptr;
   StepOptions step_options;
   long max_steps = 0;

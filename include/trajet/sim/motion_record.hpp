@@ -13,8 +13,8 @@ class MotionRecord : public RunObserver {
  public:
   struct Piece {
     Segment<> segment;
-    double from = 0.0;  ///< s
-    double to = 0.0;    ///< s
+    double from = 0.0;  ///< s since the start, as all times of the Segment
+    double to = 0.0;
   };
 
   RunWishes wishes() const override { return {.motion = true}; }

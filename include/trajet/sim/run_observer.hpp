@@ -11,7 +11,7 @@ struct World;
 struct MotionPiece {
   int group;                 ///< in World::groups: what the components of the Segment are
   const Segment<>& segment;  ///< is the motion between `from` and `to`, which lie on it
-  double from;               ///< s
+  double from;               ///< s since the start, as all times of the Segment
   double to;                 ///< s; before `from` in a run backward in time
   bool begins_anew;  ///< the state or the law may have jumped at `from`: the start, a bounce, an event that set it
   bool ends_step;    ///< a step of the method ends at `to`; else an impact, an event or the run's end cut it
@@ -37,8 +37,8 @@ class RunObserver {
   /// In order of time: all bodies at the start, at each multiple of the sample spacing and at the end; the body
   /// concerned before and after each impact.
   virtual void sample(const Sample&) {}
-  /// Asked between steps and samples: true ends the run as `interrupted`. `time` is how far the run has come. Where
-  /// memory is about to end, it may throw std::bad_alloc: the run then ends as `failed`.
+  /// Asked between steps and samples: true ends the run as `interrupted`. `time` is how far the run has come, by the
+  /// scene's clock. Where memory is about to end, it may throw std::bad_alloc: the run then ends as `failed`.
   virtual bool interrupted(double time) { return time != time; }
 };
 

@@ -26,7 +26,8 @@ enum class ImpactKind {
 
 /// A body met an obstacle. World frame, SI units.
 struct Impact {
-  double time = 0.0;
+  double time = 0.0;     ///< s, of the scene's clock
+  double elapsed = 0.0;  ///< s since the start: with all digits where the clock has no room for them
   std::string body;
   std::string with;
   ImpactKind kind = ImpactKind::hit;
@@ -43,7 +44,8 @@ struct Impact {
 
 /// A `when` crossed zero.
 struct EventRecord {
-  double time = 0.0;
+  double time = 0.0;     ///< s, of the scene's clock
+  double elapsed = 0.0;  ///< s since the start
   std::string event;
   int direction = 0;  ///< +1 rising, -1 falling
 };
@@ -73,7 +75,8 @@ struct BodyState {
 
 /// Bodies and extra states at one time. An impact has two, of the body concerned: before and after it.
 struct Sample {
-  double time = 0.0;
+  double time = 0.0;     ///< s, of the scene's clock
+  double elapsed = 0.0;  ///< s since the start
   std::vector<BodyState> bodies;
   std::vector<NamedValue> states;
 };
@@ -89,8 +92,9 @@ struct RunResult {
   std::string method;  ///< canonical name
   RunStatus status = RunStatus::finished;
   std::string failure;  ///< where and why, if `status` is failed
-  double start_time = 0.0;
+  double start_time = 0.0;  ///< s, of the scene's clock
   double end_time = 0.0;
+  double elapsed = 0.0;  ///< s from the start to the end; negative backward in time
   std::vector<NamedValue> parameters;
   std::vector<Impact> impacts;
   std::vector<EventRecord> events;

@@ -48,7 +48,7 @@ struct RotationDeviation {
 
 /// The same at a time.
 struct RotationSample {
-  double time = 0.0;  ///< s
+  double time = 0.0;  ///< s since the start
   RotationDeviation deviation;
 };
 
@@ -61,8 +61,8 @@ struct ComparisonRow {
   std::optional<double> atol;
   RunStatus status = RunStatus::failed;
   std::string failure;          ///< why there is no result: the method does not suit the law, or the numbers failed
-  double end_time = 0.0;        ///< s; where the run ended
-  double compared_until = 0.0;  ///< s; where the comparison ended: there, or where the reference ends to hold
+  double elapsed = 0.0;         ///< s since the start; where the run ended
+  double compared_until = 0.0;  ///< s since the start; where the comparison ended: there, or where the reference ends to hold
   Deviation at_end;             ///< at `compared_until`
   Deviation at_samples;         ///< maximum over the scene's samples
   Deviation at_nodes;           ///< maximum over the ends of the method's own steps
@@ -85,8 +85,8 @@ struct Comparison {
   std::vector<std::string> components;   ///< what is compared: `ball.r`, `ball.v`, an extra state
   bool turns = false;                    ///< some body of the scene does: rows tell its RotationDeviation
   std::shared_ptr<Reference> reference;
-  double start_time = 0.0;
-  double end_time = 0.0;  ///< asked for
+  double epoch = 0.0;     ///< the time at the start, s: all others count from there
+  double duration = 0.0;  ///< s, asked for; negative backward in time
   std::vector<NamedValue> parameters;
   std::vector<ComparisonRow> rows;
   std::vector<std::string> warnings;

@@ -21,7 +21,7 @@ class Reference {
  public:
   virtual ~Reference() = default;
 
-  /// How far it goes, s; nothing if it has no end.
+  /// How far it goes, s since the start; nothing if it has no end.
   virtual std::optional<double> end_time() const = 0;
   /// Whether it holds only as long as the law alone makes the motion: no bounce, no rest, no event that sets a state.
   virtual bool ends_at_jumps() const = 0;
@@ -51,9 +51,10 @@ class ClosedFormReference : public Reference {
     World::ClosedRotation closed_form;
     std::optional<Evaluator<double>> orientation{}, angular_velocity{};
 
-    void write(double t, Eigen::VectorXd& q);
+    void write(double t, double epoch, Eigen::VectorXd& q);
   };
 
+  double epoch_;  // s, of the clock in messages
   std::vector<World::ClosedForm> closed_forms_;
   std::vector<Eigen::Index> sizes_;                    // of the groups' states
   std::vector<Evaluator<double>> evaluators_;  // one for each closed form
