@@ -27,14 +27,16 @@ class SceneReader {
   }
 
   Scene read() {
-    constexpr std::array<std::string_view, 9> kKeys{"title",    "parameters", "time",  "method", "body",
-                                                    "obstacle", "state",      "event", "exact"};
+    constexpr std::array<std::string_view, 10> kKeys{"title", "up",       "parameters", "time",  "method",
+                                                     "body",  "obstacle", "state",      "event", "exact"};
+    constexpr std::array<std::string_view, 2> kUpAxes{"y", "z"};
     const TableReader root = reader(document_.root(), "the scene", {document_.file(), 1, 1});
     root.check_keys(kKeys);
 
     Scene scene;
     scene.file = document_.file().str();
     if (root.has("title")) scene.title = root.text("title");
+    scene.up = std::array{UpAxis::y, UpAxis::z}[root.choice("up", kUpAxes, 1)];
     if (root.has("parameters")) scene.parameters = named_formulas(root.subtable("parameters").titled("[parameters]"));
     if (!root.has("time")) throw InputError(root.where(), "the scene lacks the table [time] with the key 'end'");
     scene.time = read_time(root.subtable("time").titled("[time]"));
@@ -141,8 +143,9 @@ class SceneReader {
   }
 
   static MethodOptions read_method(const TableReader& table) {
-    constexpr std::array<std::string_view, 10> kKeys{"name",  "rtol",      "atol",        "step",        "steps",
-                                                     "order", "max_steps", "max_seconds", "orientation", "locate"};
+    constexpr std::array<std::string_view, 11> kKeys{"name",        "rtol",        "atol",  "step",
+                                                     "steps",       "max_step",    "order", "max_steps",
+                                                     "max_seconds", "orientation", "locate"};
     constexpr std::array<std::string_view, 3> kLocators{"polynomial", "interpolation", "subdivision"};
     table.check_keys(kKeys);
     MethodOptions method;
@@ -151,6 +154,7 @@ class SceneReader {
     method.rtol = table.optional_scalar("rtol", kDimensionless);
     method.atol = table.optional_scalar("atol", kDimensionless);
     method.step = table.optional_scalar("step", kTime);
+    method.max_step = table.optional_scalar("max_step", kTime);
     if (table.has("steps")) method.steps = table.scalar_list("steps", kTime);
     if (method.step && !method.steps.empty()) table.fail("steps", "'step' or 'steps' expected, not both");
     constexpr long kMaxOrder = 1000;  // far beyond any use; keeps it an int

@@ -60,6 +60,7 @@ class Cvode::Solver {
   Solver(MultistepFormula formula, int dimension, std::unique_ptr<CvodeProblem> problem, const StepOptions& options)
       : problem_(std::move(problem)),
         first_step_(options.step.value_or(0.0)),
+        max_step_(options.max_step),
         size_(static_cast<std::size_t>(dimension)),
         context_(make_context()),
         state_(made(N_VNew_Serial(dimension, context_.get()))),
@@ -103,7 +104,7 @@ class Cvode::Solver {
     const double distance = t_limit - time_;
     const double direction = std::copysign(1.0, distance);
     if (direction != direction_) begin(direction, std::abs(distance));
-    check(CVodeSetMinStep(cvode, smallest_step(time_)));
+    limit_steps();
     check(CVodeSetStopTime(cvode, t_limit));
     met_not_finite_ = false;
     double t = time_;
@@ -155,6 +156,15 @@ class Cvode::Solver {
     direction_ = direction;
   }
 
+  void limit_steps() {
+    void* cvode = memory_.get();
+    const double smallest = smallest_step(time_);
+    // CVODE minds that its limits do not cross on the way
+    check(CVodeSetMinStep(cvode, 0.0));
+    if (std::isfinite(max_step_)) check(CVodeSetMaxStep(cvode, std::max(max_step_, smallest)));
+    check(CVodeSetMinStep(cvode, smallest));
+  }
+
   void count_rejections() {
     long missed = 0, unsolved = 0;
     check(CVodeGetNumErrTestFails(memory_.get(), &missed));
@@ -185,6 +195,7 @@ class Cvode::Solver {
 
   std::unique_ptr<CvodeProblem> problem_;
   double first_step_;  // s; 0: CVODE's own
+  double max_step_;    // s
   std::size_t size_;
   StepStatistics statistics_;
   long rejected_before_ = 0;  // this start
@@ -203,7 +214,7 @@ class Cvode::Solver {
 
 Cvode::Cvode(MultistepFormula formula, int dimension, std::unique_ptr<CvodeProblem> problem,
              const StepOptions& options) {
-  check_tolerances(options);
+  check_step_control(options);
   solver_ = std::make_unique<Solver>(formula, dimension, std::move(problem), options);
 }
 Cvode::Cvode(Cvode&&) noexcept = default;

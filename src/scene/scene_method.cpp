@@ -7,6 +7,7 @@
 
 #include "trajet/scene/program_system.hpp"
 #include "trajet/text/did_you_mean.hpp"
+#include "trajet/text/shortest_text.hpp"
 
 namespace trajet {
 namespace {
@@ -34,6 +35,15 @@ void check_order(const MethodOptions& method, const MethodInfo& info) {
   throw InputError(method.order_where, info.max_order == 0
                                            ? name + " has an order of its own: [method] order does not go with it"
                                            : name + " takes an order of at most " + std::to_string(info.max_order));
+}
+
+/// The number of a step, s, that must not be longer than `max_step`.
+double step_number(const Expression& step, const SceneNumbers& numbers, double max_step) {
+  const double value = numbers.positive(step, "step");
+  if (value > max_step)
+    throw InputError(step.where(), "step of " + shortest_text(value) +
+                                       " s is longer than max_step = " + shortest_text(max_step) + " s");
+  return value;
 }
 
 /// The formula behind a component of a group's state, in words and as a place in the scene.
@@ -75,10 +85,12 @@ void set_method(const MethodOptions& method, const SceneNumbers& numbers, World&
   options.atol = method.atol ? numbers.not_negative(*method.atol, "atol") : kDefaultTolerance;
   if (options.rtol == 0.0 && options.atol == 0.0)
     throw InputError(method.rtol->where(), "rtol and atol must not both be zero");
-  if (method.step) options.step = numbers.positive(*method.step, "step");
+  if (method.max_step) options.max_step = numbers.positive(*method.max_step, "max_step");
+  if (method.step) options.step = step_number(*method.step, numbers, options.max_step);
   options.order = method.order;
   double t = 0.0;
-  for (const Expression& step : method.steps) options.nodes.push_back(t += world.direction() * numbers.positive(step, "step"));
+  for (const Expression& step : method.steps)
+    options.nodes.push_back(t += world.direction() * step_number(step, numbers, options.max_step));
   if (world.method->needs_step() && !options.step && options.nodes.empty())
     throw InputError(method.where,
                      "method '" + std::string(world.method->name) + "' takes fixed steps: give [method] step");

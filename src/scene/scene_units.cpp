@@ -74,7 +74,8 @@ class UnitCheck {
 
   void run() {
     check(scene_.time.start, kTime);
-    for (const auto* time : {&scene_.time.end, &scene_.time.sample, &scene_.method.step, &scene_.method.max_seconds})
+    for (const auto* time : {&scene_.time.end, &scene_.time.sample, &scene_.method.step, &scene_.method.max_step,
+                             &scene_.method.max_seconds})
       check(*time, kTime);
     for (const auto* tolerance : {&scene_.method.rtol, &scene_.method.atol}) check(*tolerance, kDimensionless);
     check(scene_.method.steps, kTime);
@@ -83,7 +84,7 @@ class UnitCheck {
       std::visit([this](const auto& shape) { check_shape(shape); }, obstacle.shape);
       check(obstacle.center, kLength);
       check_orientation(obstacle.orientation);
-      check(obstacle.restitution, kDimensionless);
+      if (obstacle.restitution) require_dimension(*obstacle.restitution, kDimensionless, at_impact());
     }
     for (const StateDefinition& state : scene_.states) check_rate(state);
     for (const EventDefinition& event : scene_.events) {
@@ -110,6 +111,11 @@ class UnitCheck {
   MeasureOfName own() const {
     return
         [this](std::string_view name) { return is_part(name) ? Measure::moving(dimension_of_part(name)) : of(name); };
+  }
+
+  /// With the name that an impact's law has for the speed of approach.
+  MeasureOfName at_impact() const {
+    return [this](std::string_view name) { return name == "u" ? Measure::moving(kSpeed) : of(name); };
   }
 
   void check(const Expression& value, const Dimension& expected) const { require_dimension(value, expected, global()); }

@@ -64,7 +64,7 @@ class ComparisonRun {
   /// The scene's numbers: what is wrong with them is no compared method's fault. It need not give a step.
   World check_base() const {
     MethodOptions method = scene_.method;
-    if (!method.step && method.steps.empty()) method.step = 1.0;
+    if (!method.step && method.steps.empty()) method.step = method.max_step.value_or(1.0);
     return world(method);
   }
 

@@ -118,6 +118,8 @@ TEST(StepGrid, WrongOptionsAreRefused) {
   EXPECT_THROW(grid_of_nodes({1.0, 1.0}), std::invalid_argument);
   EXPECT_THROW(grid_of_nodes({1.0, 3.0, 2.0}), std::invalid_argument);
   EXPECT_THROW(grid_of_nodes({1.0, nan}), std::invalid_argument);
+  EXPECT_THROW(StepGrid({.step = 0.2, .max_step = 0.1}), std::invalid_argument);
+  EXPECT_THROW(StepGrid({.max_step = 0.5, .nodes = {1.0, 1.5, 2.1}}), std::invalid_argument);
 }
 
 }  // namespace

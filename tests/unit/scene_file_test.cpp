@@ -14,9 +14,21 @@ const std::string kBall = "[[body]]\nname = \"ball\"\n";
 
 double number(const Expression& expression) { return std::stod(expression.text()); }
 
+TEST(SceneFile, TheAxisThatPointsUpIsYOrZ) {
+  EXPECT_EQ(parse_scene(kTime + kBall, "s.toml").up, UpAxis::z);
+  try {
+    parse_scene("up = \"w\"\n" + kTime + kBall, "s.toml");
+    ADD_FAILURE() << "no error";
+  } catch (const InputError& error) {
+    EXPECT_EQ(std::string(error.what()).find("s.toml:1:6: error: unknown up 'w', expected one of: y, z"), 0u)
+        << error.what();
+  }
+}
+
 TEST(SceneFile, FillsEveryPartOfAScene) {
   const Scene scene = parse_scene(R"(
 title = "everything"
+up = "y"
 [parameters]
 v0 = "36 km/h"
 a-b = 2
@@ -70,6 +82,7 @@ mass = "10 - t"
 )",
                                   "all.toml");
   EXPECT_EQ(scene.title, "everything");
+  EXPECT_EQ(scene.up, UpAxis::y);
   EXPECT_EQ(scene.file, "all.toml");
   ASSERT_EQ(scene.parameters.size(), 2u);
   EXPECT_EQ(scene.parameters[0].name, "v0");  // in the order of the file

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "scene_run.hpp"
 #include "trajet/ode/registry.hpp"
 
@@ -101,6 +103,51 @@ TEST(SceneMethod, StepDoublingReportsItsWorkAndWarns) {
   EXPECT_EQ(capped.status, RunStatus::finished);
   ASSERT_EQ(capped.warnings.size(), 1u);
   EXPECT_EQ(capped.warnings[0].find("rk4-doubling: 3 intervals, the first from t = 0 s"), 0u) << capped.warnings[0];
+}
+
+/// Hears how long the longest step is.
+class LongestStep : public RunObserver {
+ public:
+  RunWishes wishes() const override { return {.motion = true}; }
+  void motion(const MotionPiece& piece) override {
+    longest = std::max(longest, std::abs(piece.segment.duration()));
+    ++count;
+  }
+
+  double longest = 0.0;  // s
+  int count = 0;
+};
+
+// The law's solution is a polynomial, which taylor takes in one step, and nothing makes the others shorten theirs.
+TEST(SceneMethod, NoStepOfAnyMethodIsLongerThanMaxStep) {
+  for (const MethodInfo& method : methods()) {
+    for (const std::string time : {"end = 10\n", "start = 10\nend = 0\n"}) {
+      const std::string lines = "name = \"" + std::string(method.name) + "\"\nrtol = 1e-6\natol = 1e-6\n" +
+                                (method.needs_step() ? "step = 0.07\n" : "");
+      const auto longest_with = [&](const std::string& more) {
+        LongestStep steps;
+        const RunResult result = run_text("[time]\n" + time + "[method]\n" + lines + more +
+                                              "[[body]]\nname = \"ball\"\nacceleration = [0, 0, \"t/10\"]\n",
+                                          &steps);
+        EXPECT_EQ(result.status, RunStatus::finished) << method.name << ": " << result.failure;
+        EXPECT_NEAR(std::abs(final_of(result, "ball").position.z()), time[0] == 'e' ? 100.0 / 6.0 : 100.0 / 3.0, 0.7)
+            << method.name;
+        return steps.longest;
+      };
+      EXPECT_LE(longest_with("max_step = 0.07\n"), 0.07 * (1.0 + 1e-9)) << method.name;
+      if (!method.needs_step()) {
+        EXPECT_GT(longest_with(""), 0.07) << method.name;
+      }
+    }
+  }
+}
+
+// Unequal steps that do not fill the time of the run: what is left is divided too.
+TEST(SceneMethod, MaxStepDividesWhatGivenStepsLeaveOver) {
+  LongestStep steps;
+  run_text(ball_scene("name = \"rk4\"\nsteps = [0.1, 0.3]\nmax_step = 0.3\n", ""), &steps);
+  EXPECT_LE(steps.longest, 0.3 * (1.0 + 1e-9));
+  EXPECT_EQ(steps.count, 34);
 }
 
 // A ball that comes to rest has another law from then on, which is still of time alone and of two halves.

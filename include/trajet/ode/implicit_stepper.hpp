@@ -30,8 +30,10 @@ class ImplicitStepper {
   static constexpr int kDimension = Dim;
 
   ImplicitStepper(Rate rate, const StepOptions& options)
-      : step_(std::move(rate), {options.rtol, options.atol}), first_step_(options.step.value_or(0.0)) {
-    check_tolerances(options);
+      : step_(std::move(rate), {options.rtol, options.atol}),
+        first_step_(options.step.value_or(0.0)),
+        max_step_(options.max_step) {
+    check_step_control(options);
   }
 
   void start(double t, const State& q) {
@@ -46,6 +48,7 @@ class ImplicitStepper {
   StepStatus advance(double t_limit) {
     assert(t_limit != time());
     const double t0 = time();
+    t_limit = step_limit(t0, t_limit, max_step_);
     if (!step_.begin_next()) {
       step_.undo();
       return StepStatus::not_finite;
@@ -90,6 +93,7 @@ class ImplicitStepper {
 
   typename Method::template Step<Rate, Dim> step_;
   double first_step_;
+  double max_step_;  // s
   StepController controller_{Method::kErrorPower};
   double next_step_ = 0.0;  // s; 0: not chosen yet
 };

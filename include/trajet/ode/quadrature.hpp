@@ -126,7 +126,7 @@ class QuadratureStepper {
   /// Throws std::invalid_argument for wrong tolerances, or for a law that depends on its own solution.
   QuadratureStepper(Rate rate, Structure structure, const StepOptions& options)
       : rate_(std::move(rate), std::move(structure)), options_(options) {
-    check_tolerances(options);
+    check_step_control(options);
     const int n = rate_.dimension();
     segment_.resize(n, kDegree + 1);
     trial_.resize(n);
@@ -145,8 +145,9 @@ class QuadratureStepper {
   StepStatus advance(double t_limit) {
     assert(t_limit != t_);
     const double direction = t_limit > t_ ? 1.0 : -1.0;
-    const double distance = std::abs(t_limit - t_);
     const double longest = options_.step.value_or(kLongestStep * std::abs(t_limit - start_time_));
+    t_limit = step_limit(t_, t_limit, options_.max_step);
+    const double distance = std::abs(t_limit - t_);
     double h = std::min(next_step_, longest);
     while (true) {
       const bool lands = h * kLandingStretch >= distance;

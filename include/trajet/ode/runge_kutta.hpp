@@ -133,8 +133,9 @@ class AdaptiveRungeKutta : public RungeKuttaBase<Method, Rate, Dim> {
       : Base(std::move(rate)),
         rtol_(options.rtol),
         atol_(std::max(options.atol, std::numeric_limits<double>::min())),
-        first_step_(options.step.value_or(0.0)) {
-    check_tolerances(options);
+        first_step_(options.step.value_or(0.0)),
+        max_step_(options.max_step) {
+    check_step_control(options);
   }
 
   void start(double t, const State& q) {
@@ -145,6 +146,7 @@ class AdaptiveRungeKutta : public RungeKuttaBase<Method, Rate, Dim> {
 
   TRAJET_FLATTEN StepStatus advance(double t_limit) {
     assert(t_limit != this->time());
+    t_limit = step_limit(this->time(), t_limit, max_step_);
     this->evaluate_end();
     if (next_step_ == 0.0) next_step_ = first_step(t_limit);
     this->step_.begin_next();
@@ -198,6 +200,7 @@ class AdaptiveRungeKutta : public RungeKuttaBase<Method, Rate, Dim> {
   double rtol_;
   double atol_;  // never 0, so that a component that stays at 0 meets it
   double first_step_;
+  double max_step_;  // s
   StepController controller_{kErrorPower};
   double next_step_ = 0.0;  // s; 0: not chosen yet
 };

@@ -41,6 +41,13 @@ inline double smallest_step(double t) {
 /// A limit this little farther than the step is reached in one: the alternative is a tiny last step.
 inline constexpr double kLandingStretch = 1.01;
 
+/// Where a step from `t` towards `t_limit` has to end at the latest if none may be longer than `max_step`, but for what
+/// time resolves.
+inline double step_limit(double t, double t_limit, double max_step) {
+  const double longest = std::max(max_step, smallest_step(t));
+  return std::abs(t_limit - t) > longest ? t + std::copysign(longest, t_limit - t) : t_limit;
+}
+
 /// Chooses the next step from the errors of the last two: Gustafsson's proportional-integral controller,
 /// [HairerWanner1996] IV.2:
 ///

@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "trajet/ode/step_control.hpp"
 #include "trajet/ode/stepper.hpp"
 
 namespace trajet {
@@ -15,18 +16,24 @@ namespace trajet {
 /// With `StepOptions::step`, node k is start + k * step: nothing accumulates. With `StepOptions::nodes`, the nodes are
 /// given. A limit between two nodes interrupts the step there and the next one goes on to the same node. A limit nearer
 /// to a node than 1e-9 of a step replaces it, so that rounding makes no tiny steps. Behind the last given node, one
-/// step leads to the limit.
+/// step leads to the limit. What is longer than `StepOptions::max_step` before the first given node and behind the last
+/// is divided.
 class StepGrid {
  public:
-  /// Throws std::invalid_argument without a step and nodes, or if the step is not positive or the nodes are not
-  /// monotonic.
-  explicit StepGrid(const StepOptions& options) : step_(options.step.value_or(0.0)), nodes_(options.nodes) {
+  /// Throws std::invalid_argument without a step and nodes, or if the step is not positive, the nodes are not
+  /// monotonic, or a step is longer than `max_step`.
+  explicit StepGrid(const StepOptions& options)
+      : step_(options.step.value_or(0.0)), max_step_(options.max_step), nodes_(options.nodes) {
     if (nodes_.empty() && !options.step) throw std::invalid_argument("a fixed-step method needs `step` or `nodes`");
     if (nodes_.empty() && !(step_ > 0.0 && std::isfinite(step_)))
       throw std::invalid_argument("`step` must be positive and finite");
     if (nodes_.size() > 1 && nodes_.front() > nodes_.back()) std::reverse(nodes_.begin(), nodes_.end());
     for (std::size_t i = 1; i < nodes_.size(); ++i)
       if (!(nodes_[i] > nodes_[i - 1])) throw std::invalid_argument("`nodes` must increase or decrease throughout");
+    const auto is_too_long = [this](double step) { return step > (1.0 + kMerge) * max_step_; };
+    bool has_long_step = nodes_.empty() && is_too_long(step_);
+    for (std::size_t i = 1; i < nodes_.size(); ++i) has_long_step |= is_too_long(nodes_[i] - nodes_[i - 1]);
+    if (has_long_step) throw std::invalid_argument("a fixed step must not be longer than `max_step`");
   }
 
   /// Begins a new grid at `t`. Given nodes stay where they are.
@@ -39,7 +46,8 @@ class StepGrid {
   /// The end of the step from `t` towards `t_limit`, which differs from `t`.
   double next(double t, double t_limit) {
     const double direction = t_limit > t ? 1.0 : -1.0;
-    return nodes_.empty() ? next_equal(t, t_limit, direction) : next_given(t, t_limit, direction);
+    if (nodes_.empty()) return next_equal(t, t_limit, direction);
+    return next_given(t, step_limit(t, t_limit, max_step_), direction);
   }
 
  private:
@@ -73,6 +81,7 @@ class StepGrid {
   }
 
   double step_;
+  double max_step_;  // s
   std::vector<double> nodes_;
   double start_ = 0.0;
   double count_ = 0.0;  // nodes reached since the start; a double, because it is only multiplied

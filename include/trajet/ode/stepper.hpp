@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <concepts>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -35,14 +36,17 @@ struct StepOptions {
   /// s, > 0. Fixed-step methods: the step, required unless `nodes`; rk4-doubling: the output interval; quadrature: the
   /// longest step; others: the first step.
   std::optional<double> step{};
+  /// s, > 0; no step is longer. A fixed step must not be.
+  double max_step = std::numeric_limits<double>::infinity();
   std::vector<double> nodes{};  ///< fixed-step methods: the times of the step ends, for unequal steps
   int order = 0;                ///< series methods: the order; 0 lets the method choose
 };
 
-/// Throws std::invalid_argument for tolerances that an error-controlled method cannot keep.
-inline void check_tolerances(const StepOptions& options) {
+/// Throws std::invalid_argument for tolerances, or a longest step, that an error-controlled method cannot keep.
+inline void check_step_control(const StepOptions& options) {
   if (!(options.rtol >= 0.0 && options.atol >= 0.0 && options.rtol + options.atol > 0.0))
     throw std::invalid_argument("`rtol` and `atol` must not be negative, and not both zero");
+  if (!(options.max_step > 0.0)) throw std::invalid_argument("`max_step` must be positive");
 }
 
 /// A method at work on one system: it holds the current time and state and moves them on, one accepted step at a time.

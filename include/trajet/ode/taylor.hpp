@@ -66,7 +66,7 @@ class TaylorStepper {
         order_(options.order > 0 ? options.order : taylor_order(options.rtol > 0.0 ? options.rtol : options.atol)),
         degree_(expansion_.polynomial_degree()),
         exact_(degree_ >= 0 && degree_ <= kMaxTaylorOrder) {
-    check_tolerances(options);
+    check_step_control(options);
     if (order_ > kMaxTaylorOrder)
       throw std::invalid_argument("the order of a series is at most " + std::to_string(kMaxTaylorOrder));
     order_ = exact_ ? std::max(degree_, 1) : std::clamp(order_, 2, kMaxTaylorOrder);
@@ -99,13 +99,16 @@ class TaylorStepper {
   }
 
   StepStatus advance(double t_limit) {
+    const double longest_blind = kBlindStep * std::abs(t_limit - start_time_);
+    t_limit = step_limit(t_, t_limit, options_.max_step);
     const double remaining = t_limit - t_;
     double step = 0.0;
     for (int expansions = 0; expansions < kMaxBranchChanges; ++expansions) {
       expansion_.expand(t_, q_, order_, series().data());
       if constexpr (kIsExtended) segment_.coefficients() = series_.template cast<double>();
       ++statistics_.law_evaluations;
-      step = exact_ ? whole_way(remaining) : std::copysign(step_within_tolerance(t_limit), remaining);
+      step = exact_ ? whole_way(remaining)
+                    : std::copysign(step_within_tolerance(std::abs(remaining), longest_blind), remaining);
       step = expansion_.duration_until_branch(step);
       // a branch that changes at once: expand again, behind it
       if (!(std::abs(step) < smallest_step(t_))) break;
@@ -178,8 +181,8 @@ class TaylorStepper {
     return segment_.coefficients().allFinite() ? remaining : std::numeric_limits<double>::quiet_NaN();
   }
 
-  double step_within_tolerance(double t_limit) {
-    const double remaining = std::abs(t_limit - t_);
+  /// `remaining`, `longest_blind` > 0, s: no step is longer, nor one of a series that does not tell.
+  double step_within_tolerance(double remaining, double longest_blind) {
     double finite = 0.0;  // becomes not-a-number with a rate, or a last term, that is not finite
     for (int i = 0; i < segment_.dimension(); ++i) {
       inverse_tolerance_[i] = 1.0 / (options_.atol + options_.rtol * std::abs(segment_.coefficients()(i, 0)));
@@ -201,8 +204,7 @@ class TaylorStepper {
     if (log_middle + middle * log_step < 0.0)
       log_step = std::min(log_step, (log_middle - std::max(log_last, log_last_but_one)) / (order_ - middle));
     double step = detail::rough_exp2(std::clamp(log_step, -900.0, 900.0));
-    if (step > remaining && log_last <= kLogZero && log_last_but_one <= kLogZero)
-      step = kBlindStep * std::abs(t_limit - start_time_);
+    if (step > remaining && log_last <= kLogZero && log_last_but_one <= kLogZero) step = longest_blind;
     if (options_.step && previous_step_ == 0.0) step = std::min(step, *options_.step);
     return std::min(step, remaining);
   }

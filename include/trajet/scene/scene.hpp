@@ -38,11 +38,12 @@ struct TimeOptions {
 
 struct MethodOptions {
   std::string name = "taylor";
-  std::optional<Expression> rtol;  ///< default 1e-12
-  std::optional<Expression> atol;  ///< default 1e-12
-  std::optional<Expression> step;  ///< s
-  std::vector<Expression> steps;   ///< s; unequal steps of a fixed-step method, one after the other
-  int order = 0;                   ///< series methods; 0: the method chooses
+  std::optional<Expression> rtol;      ///< default 1e-12
+  std::optional<Expression> atol;      ///< default 1e-12
+  std::optional<Expression> step;      ///< s
+  std::optional<Expression> max_step;  ///< s; no step is longer
+  std::vector<Expression> steps;       ///< s; unequal steps of a fixed-step method, one after the other
+  int order = 0;                       ///< series methods; 0: the method chooses
   SourceLocation order_where{};
   long max_steps = 1'000'000;
   std::optional<Expression> max_seconds{};                             ///< s of elapsed time; none: no limit
@@ -146,6 +147,9 @@ struct ExactOrientation {
 
 enum class OnHit { stop, bounce, pass };
 
+/// The axis of the world that points up in pictures. Nothing in a motion depends on it.
+enum class UpAxis { y, z };
+
 /// Something at rest that bodies meet.
 struct ObstacleDefinition {
   std::string name;
@@ -154,8 +158,9 @@ struct ObstacleDefinition {
   std::optional<Expression> center{};
   OrientationDefinition orientation{};  ///< of the shape's frame
   OnHit on_hit = OnHit::stop;
-  std::optional<Expression> restitution{};  ///< 0..1, for bounce; none: 1
-  std::optional<RgbColor> color{};          ///< in pictures; none: grey
+  /// 0..1, for bounce; may be a formula of `u`, the speed of approach along the normal, m/s; none: 1
+  std::optional<Expression> restitution{};
+  std::optional<RgbColor> color{};  ///< in pictures; none: grey
   SourceLocation where{};
 };
 
@@ -183,6 +188,7 @@ struct EventDefinition {
 
 struct Scene {
   std::string title{};
+  UpAxis up = UpAxis::z;
   std::string file{};  ///< where it was read from; empty for a scene built in C++
   std::vector<NamedExpression> parameters{};
   /// What `table("NAME", x)` of its formulas looks up, by name.
