@@ -49,7 +49,8 @@ std::string event_table(const std::vector<EventRecord>& events, int width) {
   TextTable table{{"time [s]", "event", "direction"}};
   for (const EventRecord& event : events) {
     if (table.size() > kMostRows) break;
-    table.push_back({format_time(event.time, event.elapsed), event.event, event.direction < 0 ? "falling" : "rising"});
+    const std::string what = event.law.empty() ? event.event : event.event + ": " + event.law;
+    table.push_back({format_time(event.time, event.elapsed), what, event.direction < 0 ? "falling" : "rising"});
   }
   std::string text = format_table(table, {.width = width});
   if (events.size() > kMostRows) text += fmt::format("  … and {} more\n", events.size() - kMostRows);

@@ -37,7 +37,9 @@ Json object(const Impact& impact) {
 }
 
 Json object(const EventRecord& event) {
-  return {{"time", event.time}, {"event", event.event}, {"direction", event.direction < 0 ? "falling" : "rising"}};
+  Json json = {{"time", event.time}, {"event", event.event}, {"direction", event.direction < 0 ? "falling" : "rising"}};
+  if (!event.law.empty()) json["law"] = event.law;
+  return json;
 }
 
 template <class T>

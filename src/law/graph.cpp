@@ -88,6 +88,10 @@ Graph::Graph(int input_count) : input_count_(input_count) {
 
 Graph::Graph(const Program& program) : Graph(program.input_count) {
   tables_ = program.tables;
+  reopened_outputs_ = insert(program);
+}
+
+std::vector<int> Graph::insert(const Program& program) {
   std::vector<int> nodes(static_cast<std::size_t>(program.slot_count));  // of the slots
   const auto node_in = [&](std::int32_t slot) -> int& { return nodes[static_cast<std::size_t>(slot)]; };
   for (int i = 0; i < input_count_; ++i) node_in(i) = i;
@@ -101,10 +105,12 @@ Graph::Graph(const Program& program) : Graph(program.input_count) {
     }
     const int count = operand_count(i.opcode);
     std::array<int, 3> operands{node_in(i.a), count > 1 ? node_in(i.b) : 0, count > 2 ? node_in(i.c) : 0};
-    if (i.opcode == Opcode::table) operands[1] = i.b;
-    node_in(i.result) = operation(i.opcode, operands, i.constant);
+    node_in(i.result) = i.opcode == Opcode::table ? table(program.tables[static_cast<std::size_t>(i.b)], operands[0])
+                                                  : operation(i.opcode, operands, i.constant);
   }
-  for (const std::int32_t slot : program.outputs) reopened_outputs_.push_back(node_in(slot));
+  std::vector<int> outputs;
+  for (const std::int32_t slot : program.outputs) outputs.push_back(node_in(slot));
+  return outputs;
 }
 
 int Graph::constant(const ExtendedConstant& value) {

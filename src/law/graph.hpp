@@ -21,6 +21,12 @@ class Graph {
   /// The computations of a program, as it has them: nothing is simplified.
   explicit Graph(const Program& program);
 
+  /// Adds the computations of a program over the same inputs; the nodes of its outputs.
+  std::vector<int> insert(const Program& program);
+  /// The derivative of a node where the inputs change at the rates that the nodes `of_inputs` have; none where an
+  /// operation on the way has no derivative that is one of ours.
+  std::optional<int> derivative(int node, std::span<const int> of_inputs);
+
   int constant(const ExtendedConstant& value);
   /// The value of a node that is a constant.
   std::optional<ExtendedConstant> constant_value(int node) const;
@@ -82,6 +88,8 @@ class Graph {
   /// The value of an operation on constants, computed in numbers of type T.
   template <class T>
   T computed(const Node& node) const;
+  /// The derivative of an operation from those of its operands.
+  std::optional<int> derivative_of(int node, const std::array<int, 3>& of_operands);
   int add_constant(int a, const ExtendedConstant& k);
   int multiply_constant(int a, const ExtendedConstant& k);
   int divide_constant(int a, const ExtendedConstant& k);

@@ -30,4 +30,15 @@ int polynomial_degree(const Program& program) {
   return highest;
 }
 
+std::vector<int> read_components(const Program& program) {
+  std::vector<bool> is_read(static_cast<std::size_t>(program.slot_count), false);
+  for (const Instruction& instruction : program.instructions)
+    for (const int slot : {instruction.a, instruction.b, instruction.c}) is_read[static_cast<std::size_t>(slot)] = true;
+  for (const int slot : program.outputs) is_read[static_cast<std::size_t>(slot)] = true;
+  std::vector<int> components;
+  for (int slot = 1; slot < program.input_count; ++slot)
+    if (is_read[static_cast<std::size_t>(slot)]) components.push_back(slot - 1);
+  return components;
+}
+
 }  // namespace trajet

@@ -107,6 +107,13 @@ void ProgramExpansionT<T>::reserve(int order) {
 }
 
 template <class T>
+void ProgramExpansionT<T>::set_constant(std::int32_t slot, double value) {
+  for (Program::Constant& constant : program_.constants)
+    if (constant.slot == slot) constant.value = value;
+  if (stride_ > 0) row(slot)[0] = static_cast<T>(value);
+}
+
+template <class T>
 void ProgramExpansionT<T>::place_rows() {
   steps_.clear();
   int own = program_.slot_count;

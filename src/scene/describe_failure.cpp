@@ -8,6 +8,7 @@
 #include "law_symbols.hpp"
 #include "trajet/law/evaluate.hpp"
 #include "trajet/portable.hpp"
+#include "trajet/scene/law_name.hpp"
 #include "trajet/text/shortest_text.hpp"
 
 namespace trajet {
@@ -85,13 +86,8 @@ class LawReading {
 
   /// "acceleration of body 'ball' (scene.toml:8:17: -g/x) is [0, 0, not-a-number] at t = 1 s, where x = 0"
   std::string describe(const Formula& formula, double t, const Eigen::VectorXd& q) const {
-    constexpr std::size_t kLongest = 80;  // what is longer is seen at its place
     constexpr std::size_t kMostValues = 8;
-    std::string text = formula.text.text();
-    if (text.size() > kLongest) text = text.substr(0, kLongest) + " …";
-    const std::string owner =
-        formula.body >= 0 ? " of body '" + body(formula).name + "'" : " of state '" + state(formula).name + "'";
-    std::string result = std::string(formula.key) + owner + " (" + place(formula.text.where()) + text + ") is " +
+    std::string result = name_with_place(world_, index_, formula) + " is " +
                          text_of(value(formula.text, formula, t, q)) + " at t = " + clock_text(t) + " s";
     std::size_t count = 0;
     for (const std::string& name : formula.text.names()) {
@@ -148,17 +144,6 @@ class LawReading {
   const World::Body& body(const Formula& formula) const {
     return world_.bodies[static_cast<std::size_t>(formula.body)];
   }
-  const World::ExtraState& state(const Formula& formula) const {
-    return *ranges::find_if(world_.states, [&](const World::ExtraState& each) { return is_at(each, formula.first); });
-  }
-
-  static std::string place(const SourceLocation& where) {
-    std::string text = where.file.str();
-    if (where.line > 0)
-      text += (text.empty() ? "" : ":") + std::to_string(where.line) + ":" + std::to_string(where.column);
-    return text.empty() ? text : text + ": ";
-  }
-
   const World& world_;
   const World::Group& group_;
   int index_;

@@ -64,10 +64,23 @@ void Course::use_contacts() {
       for (const Program& condition : conditions.past_edges) watch(Crossing::Kind::past_edge, condition);
     }
   }
+  make_stepper();
+}
+
+void Course::make_stepper() {
   StepOptions options = world_.step_options;
   options.rtol *= orientations_.tolerance_factor();
   options.atol *= orientations_.tolerance_factor();
-  stepper_ = world_.method->make(held_system_ ? *held_system_ : *free_system_, options);
+  ProgramSystem& law = held_system_ ? *held_system_ : *free_system_;
+  branched_ = nullptr;
+  if (!chooses_by_state(law.program())) {
+    stepper_ = world_.method->make(law, options);
+    return;
+  }
+  auto branches = std::make_unique<LawBranches>(law.program());
+  auto branched = std::make_unique<BranchedStepper>(*world_.method, options, law, std::move(branches));
+  branched_ = branched.get();
+  stepper_ = std::move(branched);
 }
 
 void Course::enter_piece(double t) {
@@ -258,8 +271,12 @@ Eigen::VectorXd Course::free_rate(double t, const Eigen::VectorXd& q) const {
 }
 
 Eigen::VectorXd Course::rate(double t, const Eigen::VectorXd& q) const {
-  if (!held_system_) return free_rate(t, q);
   Eigen::VectorXd dq(q.size());
+  if (branched_ != nullptr && branched_->is_sliding() && t > segment_.t0()) {
+    branched_->rate(t, q.data(), dq.data());
+    return dq;
+  }
+  if (!held_system_) return free_rate(t, q);
   held_system_->rate(t, q.data(), dq.data());
   return dq;
 }

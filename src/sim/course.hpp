@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "branched_stepper.hpp"
 #include "closed_rotations.hpp"
 #include "orientation_upkeep.hpp"
 #include "state_error.hpp"
@@ -86,6 +87,12 @@ class Course {
   double error_bound_along(const Eigen::VectorXd& direction, double t) {
     return error_.bound_along(direction, law(), segment_, t);
   }
+  /// Where the motion has begun to slide along a border of its law, or has left one, since that was asked last.
+  std::vector<BranchedStepper::Slide> take_slides() {
+    return branched_ != nullptr ? branched_->take_slides() : std::vector<BranchedStepper::Slide>();
+  }
+  /// The component of the state whose rate could not be decided, where that has ended the motion; else -1.
+  int undecided_component() const { return branched_ != nullptr ? branched_->undecided_component() : -1; }
   bool finished() const { return segment_.t1() == world_.duration; }
   StepStatistics statistics() const;
   /// What the method has to say of its work.
@@ -101,6 +108,7 @@ class Course {
   System& law() { return held_system_ ? *held_system_ : *free_system_; }
   /// The law with the present lasting contacts, a stepper for it, and watches for the contacts' ends.
   void use_contacts();
+  void make_stepper();
   /// `instant`: at which the course goes on; null at the start.
   void begin(double t, const Eigen::VectorXd& q, const Instant* instant);
   /// `is_held_anew`: the lasting contacts have changed.
@@ -122,6 +130,7 @@ class Course {
   std::unique_ptr<ProgramSystem> free_system_;
   std::unique_ptr<ProgramSystem> held_system_;  // with contacts only
   std::unique_ptr<AnyStepper> stepper_;
+  BranchedStepper* branched_ = nullptr;  // the stepper, where the law has choices by the state
   TimeSwitches switches_;
   TimeSwitches::Piece piece_{};  // that the law is kept within
   OrientationUpkeep orientations_;

@@ -109,8 +109,8 @@ void Recorder::put_on_clock(Impact& impact) const {
   if (world_.epoch != 0.0) impact.time_error_bound += kUnitRoundoff * std::abs(impact.time);
 }
 
-void Recorder::event(double time, const std::string& name, int direction) {
-  result_.events.push_back({world_.epoch + time, time, name, direction});
+void Recorder::event(double time, const std::string& name, int direction, const std::string& law) {
+  result_.events.push_back({world_.epoch + time, time, name, direction, law});
 }
 
 void Recorder::impact(Impact impact) {
@@ -143,8 +143,8 @@ void Recorder::warn_of_overlap() {
   const std::optional<BodyOverlaps::Overlap> overlap = overlaps_->finish(result_.elapsed);
   if (!overlap) return;
   const auto name = [&](int body) { return "'" + world_.bodies[static_cast<std::size_t>(body)].name + "'"; };
-  warn("bodies " + name(overlap->first) + " and " + name(overlap->second) +
-       " overlap from t = " + shortest_text(world_.epoch + overlap->time) + " s on: bodies do not meet each other, they pass through");
+  warn("bodies " + name(overlap->first) + " and " + name(overlap->second) + " overlap from t = " +
+       shortest_text(world_.epoch + overlap->time) + " s on: bodies do not meet each other, they pass through");
 }
 
 void Recorder::warn(const std::string& text) {

@@ -42,7 +42,7 @@ class Recorder {
   void impact(Impact impact);
   /// Impacts at one instant that were solved together.
   void impacts(std::vector<Impact> group);
-  void event(double time, const std::string& name, int direction);
+  void event(double time, const std::string& name, int direction, const std::string& law = {});
   /// Impacts of two pairs may each have been first.
   void warn_of_tie(const Impact& impact, const std::string& body, const std::string& with);
   void warn(const std::string& text);

@@ -7,6 +7,7 @@
 #include "ties.hpp"
 #include "trajet/law/evaluate.hpp"
 #include "trajet/scene/describe_failure.hpp"
+#include "trajet/scene/law_name.hpp"
 #include "trajet/text/shortest_text.hpp"
 
 namespace trajet {
@@ -158,15 +159,34 @@ void RunLoop::advance(int index) {
   recorder_.motion(moving, moving.segment().t1());
   for (const int body : moving.group().bodies) encounters_.keep(body, moving, moving.segment().t1());
   if (const StepStatus status = moving.advance(); status != StepStatus::ok) {
-    const double t = recorder_.end_time();
-    return fail(t, status_text(status) + ": " + describe_failure(world_, index, t, moving.state(t)));
+    return fail(recorder_.end_time(), describe_failed_step(index, status));
   }
+  record_slides(index);
   double until = moving.next().time;
   for (const int body : moving.group().bodies) {
     encounters_.follow(body, moving, until);
     if (const Pair* pair = encounters_.first(body)) until = std::min(until, pair->contact.time);
   }
   enqueue(index);
+}
+
+void RunLoop::record_slides(int index) {
+  for (const BranchedStepper::Slide& slide : course(index).take_slides()) {
+    const World::LawFormula* formula = find_formula(world_, index, slide.component);
+    recorder_.event(slide.time, slide.begins ? "sticks" : "slips", slide.direction,
+                    formula != nullptr ? name_of(world_, index, *formula) : "");
+  }
+}
+
+std::string RunLoop::describe_failed_step(int index, StepStatus status) {
+  const Course& moving = course(index);
+  const double t = recorder_.end_time();
+  if (const int component = moving.undecided_component(); component >= 0) {
+    const World::LawFormula* formula = find_formula(world_, index, component);
+    return "the law switches to and fro, and which of its branches holds cannot be decided" +
+           (formula != nullptr ? ": " + name_with_place(world_, index, *formula) : "");
+  }
+  return status_text(status) + ": " + describe_failure(world_, index, t, moving.state(t));
 }
 
 void RunLoop::go_on(int index, const Instant& instant) {
@@ -216,7 +236,8 @@ std::string RunLoop::accumulates(int index, int event, double time) {
   const std::optional<double> limit = is_stopped ? times.extrapolated_limit() : times.limit(kNearLimit * rounding);
   if (!limit && !is_stopped) return {};
   return "event '" + world_.events[static_cast<std::size_t>(event)].name +
-         "' happens faster and faster, infinitely often before t = " + shortest_text(world_.epoch + limit.value_or(time)) +
+         "' happens faster and faster, infinitely often before t = " +
+         shortest_text(world_.epoch + limit.value_or(time)) +
          " s: what its set turns back or stops, the law drives across zero again; the motion behind that time is not "
          "followed";
 }
@@ -260,8 +281,8 @@ void RunLoop::handle_contact_end(int index) {
   const double time = crossing.kind == Crossing::Kind::pull ? end_of_pull(moving, crossing) : crossing.time;
   Instant instant(moving, time);
   const int body = instant.contacts[static_cast<std::size_t>(crossing.index)].body;
-  recorder_.sample(time, body);
-  recorder_.sample(time, body);
+  recorder_.sample(time, body, SamplePhase::before);
+  recorder_.sample(time, body, SamplePhase::after);
   lasting_contacts_.leave(instant, crossing.index, crossing.kind == Crossing::Kind::past_edge,
                           crossing.error_bound + std::abs(time - crossing.time));
   go_on(index, instant);

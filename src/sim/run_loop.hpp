@@ -44,6 +44,9 @@ class RunLoop {
   void start();
   void advance(int course);
   void enqueue(int course);
+  /// The law of the course sticks or slips where its last step began.
+  void record_slides(int course);
+  std::string describe_failed_step(int course, StepStatus status);
   /// The course goes on as the instant says.
   void go_on(int course, const Instant& instant);
 
@@ -62,7 +65,7 @@ class RunLoop {
   bool goes_on_from_contact(int course, const Pair& pair, const Impact& impact);
   void bounce(int course, Pair pair, Impact impact);
   /// Begins a rest where the body, after its impact, will not fly any more; false if it cannot be followed.
-  bool rest(Instant& instant, const Pair& pair, const Impact& impact, bool is_hidden);
+  bool rest(Instant& instant, const Pair& pair, const Impact& impact, double restitution, bool is_hidden);
 
   void stop();
   /// A motion whose state runs to infinity just at the end of the run has none there.

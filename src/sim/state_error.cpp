@@ -103,8 +103,7 @@ Eigen::VectorXd StateError::bound(System& law, const Segment<>& segment, double 
   return part.error + moved.cwiseAbs().rowwise().sum();
 }
 
-double StateError::bound_along(const Eigen::VectorXd& direction, System& law, const Segment<>& segment,
-                               double t) {
+double StateError::bound_along(const Eigen::VectorXd& direction, System& law, const Segment<>& segment, double t) {
   settle();
   const Step part = step_until(law, segment, t);
   const double own = direction.cwiseAbs().dot(part.error);

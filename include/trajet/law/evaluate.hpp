@@ -197,6 +197,8 @@ class Evaluator {
     run_instructions(*program_, slots);
     for (const std::int32_t slot : program_->outputs) *outputs++ = slots[slot];
   }
+  /// From now on the constant in a slot is another one than the program's.
+  void set_constant(std::int32_t slot, double value) { slots_[static_cast<std::size_t>(slot)] = T(value); }
 
  private:
   const Program* program_;

@@ -90,4 +90,7 @@ struct Program {
 /// circle or by anything but + - * and division by constants has no degree.
 int polynomial_degree(const Program& program);
 
+/// The components of the state that a program reads, in rising order.
+std::vector<int> read_components(const Program& program);
+
 }  // namespace trajet

@@ -43,6 +43,8 @@ class ProgramExpansionT {
   /// starts there from the state reached, takes those behind. 0: they do not hold at all; expand again from the same
   /// state.
   double duration_until_branch(double duration);
+  /// From now on the constant in a slot is this one.
+  void set_constant(std::int32_t slot, double value);
   /// Branches that t alone decides hold until the caller, who knows when they change, expands behind that time.
   void leave_branches_by_time() { leaves_branches_by_time_ = true; }
 

@@ -19,6 +19,8 @@ class ProgramJacobian {
   /// At (t, q): dg_dq(i, j) = d output_i / d q_j  // (dimension x dimension), column-major
   /// and dg_dt(i) = d output_i / dt.
   void operator()(double t, const double* q, double* dg_dq, double* dg_dt);
+  /// From now on the constant in a slot is another one than the program's.
+  void set_constant(std::int32_t slot, double value) { evaluator_.set_constant(slot, value); }
 
  private:
   using Number = Dual<8>;

@@ -21,6 +21,7 @@ class ProgramSystem : public System {
   ProgramSystem& operator=(const ProgramSystem&) = delete;
 
   int dimension() const override { return expansion_.dimension(); }
+  const Program& program() const { return expansion_.program(); }
   /// The law is asked for what it is between these two times, s, within which no branch changes by t alone: outside it
   /// goes on as at the nearer one, so that it is on one branch up to the very end of a step.
   void keep_within(double first, double last) {
@@ -28,6 +29,16 @@ class ProgramSystem : public System {
     latest_ = std::max(first, last);
     leaves_branches_by_time_ = true;
     expansion_.leave_branches_by_time();
+  }
+  /// What `keep_within` has said last; without end if it has not.
+  double earliest() const { return earliest_; }
+  double latest() const { return latest_; }
+  /// From now on the constant in a slot of the law is this one.
+  void set_constant(std::int32_t slot, double value) {
+    expansion_.set_constant(slot, value);
+    evaluator_.set_constant(slot, value);
+    if (extended_) extended_->set_constant(slot, value);
+    if (jacobian_) jacobian_->set_constant(slot, value);
   }
   void rate(double t, const double* q, double* dq) override { evaluator_(within(t), q, dq); }
   void jacobian(double t, const double* q, double* dg_dq, double* dg_dt) override {

@@ -42,12 +42,13 @@ struct Impact {
   double time_error_bound = 0.0;  ///< s
 };
 
-/// A `when` crossed zero.
+/// A `when` crossed zero, or a law that switches at a zero of the state `sticks` there or `slips` off it.
 struct EventRecord {
   double time = 0.0;     ///< s, of the scene's clock
   double elapsed = 0.0;  ///< s since the start
-  std::string event;
-  int direction = 0;  ///< +1 rising, -1 falling
+  std::string event;     ///< its name; `sticks` or `slips`
+  int direction = 0;     ///< +1 rising, -1 falling: of what decides the law, where that sticks or slips
+  std::string law{};     ///< that sticks or slips: "acceleration of body 'block'"
 };
 
 /// A named point of a body. World frame, SI units.
@@ -73,10 +74,14 @@ struct BodyState {
   std::optional<double> position_error_bound{}, velocity_error_bound{};
 };
 
+/// Of the two samples at the time of an impact, or of the end of a lasting contact, which one.
+enum class SamplePhase { none, before, after };
+
 /// Bodies and extra states at one time. An impact has two, of the body concerned: before and after it.
 struct Sample {
   double time = 0.0;     ///< s, of the scene's clock
   double elapsed = 0.0;  ///< s since the start
+  SamplePhase phase = SamplePhase::none;
   std::vector<BodyState> bodies;
   std::vector<NamedValue> states;
 };
@@ -91,7 +96,7 @@ struct RunResult {
   std::string title;
   std::string method;  ///< canonical name
   RunStatus status = RunStatus::finished;
-  std::string failure;  ///< where and why, if `status` is failed
+  std::string failure;      ///< where and why, if `status` is failed
   double start_time = 0.0;  ///< s, of the scene's clock
   double end_time = 0.0;
   double elapsed = 0.0;  ///< s from the start to the end; negative backward in time

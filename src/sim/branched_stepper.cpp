@@ -1,0 +1,180 @@
+#include "branched_stepper.hpp"
+
+#include <cmath>
+#include <utility>
+
+#include "trajet/ode/step_control.hpp"
+#include "trajet/portable.hpp"
+
+namespace trajet {
+namespace {
+
+/// Where it was not decided so often which branch holds, the law switches to and fro at one place.
+constexpr int kMostUndecided = 1000;
+/// So often a step of a set length is made again at one end of a branch.
+constexpr int kMostRetakes = 20;
+
+}  // namespace
+
+BranchedStepper::BranchedStepper(const MethodInfo& method, const StepOptions& options, ProgramSystem& whole,
+                                 std::unique_ptr<LawBranches> branches)
+    : most_retakes_(method.needs_step()                 ? kMostRetakes
+                    : method.dense_order < method.order ? 1
+                                                        : 0),
+      is_fixed_(method.needs_step()),
+      branches_(std::move(branches)),
+      system_(whole, branches_->pinned().law),
+      stepper_(method.make(system_, options)) {}
+
+void BranchedStepper::start(double t, const State& q) {
+  time_ = t;
+  state_ = q;
+  extended_.reset();
+  passed_.reset();
+  begins_ = true;
+}
+
+void BranchedStepper::start_extended(double t, const ExtendedState& q) {
+  start(t, q.cast<double>());
+  extended_ = q;
+}
+
+void BranchedStepper::begin(double direction, bool may_pin) {
+  using Finding = LawBranches::Finding;
+  const std::vector<SlidingBorder> before(branches_->sliding().begin(), branches_->sliding().end());
+  const double t = system_.within_piece(time_);
+  if (may_pin) {
+    const Finding finding = passed_ ? branches_->pass(*passed_, t, state_.data(), direction)
+                                    : branches_->begin(t, state_.data(), direction);
+    undecided_ += finding == Finding::undecided ? 1 : 0;
+    may_pin = finding == Finding::decided;
+    if (may_pin) record_slides(before);
+  }
+  if (may_pin) {
+    system_.take_branches(*branches_);
+  } else {
+    system_.take_whole();
+  }
+  if (extended_) {
+    stepper_->start_extended(time_, *extended_);
+  } else {
+    stepper_->start(time_, state_);
+  }
+}
+
+void BranchedStepper::record_slides(const std::vector<SlidingBorder>& before) {
+  const auto add = [&](int border, bool begins) {
+    const bool is_passed = passed_ && passed_->border == border;
+    slides_.push_back(
+        {time_, first_output_of(branches_->pinned(), border), begins, is_passed && passed_->onward < 0.0 ? -1 : 1});
+  };
+  const auto is_among = [](const auto& borders, int border) {
+    return ranges::any_of(borders, [border](const SlidingBorder& each) { return each.border == border; });
+  };
+  for (const SlidingBorder& each : before)
+    if (!is_among(branches_->sliding(), each.border)) add(each.border, false);
+  for (const SlidingBorder& each : branches_->sliding())
+    if (!is_among(before, each.border)) add(each.border, true);
+}
+
+void BranchedStepper::undo_step() { extended_ = stepper_->extended_state(0.0L); }
+
+StepStatus BranchedStepper::advance(double t_limit) {
+  slides_.clear();
+  system_.keep_within_piece();
+  const double direction = t_limit < time_ ? -1.0 : 1.0;
+  int changes = 0;
+  bool may_pin = true;
+  while (true) {
+    if (std::exchange(begins_, false)) begin(direction, may_pin);
+    if (undecided_ > kMostUndecided) {
+      undecided_component_ = first_output_of(branches_->pinned(), branches_->undecided().front());
+      return StepStatus::step_too_small;
+    }
+    if (const StepStatus status = step(t_limit); status != StepStatus::ok) {
+      if (system_.is_whole()) return status;
+      may_pin = false;
+      begins_ = true;
+      continue;
+    }
+    if (system_.is_whole()) break;
+    retake_to_end();
+    if (!end_) break;
+    if (end_->is_known && std::abs(end_->time - time_) >= smallest_step(time_)) {
+      cut(*end_);
+      return StepStatus::ok;
+    }
+    undo_step();
+    begins_ = true;
+    may_pin = end_->is_known && ++changes <= kMaxBranchChanges;
+    passed_ = end_;
+  }
+  time_ = stepper_->time();
+  state_ = stepper_->state();
+  extended_.reset();
+  passed_.reset();
+  begins_ = system_.is_whole();
+  if (begins_) extended_ = stepper_->extended_state(static_cast<Extended>(segment_.duration()));
+  return StepStatus::ok;
+}
+
+StepStatus BranchedStepper::step(double t_limit) {
+  constexpr int kMostTries = 6;
+  constexpr double kShorter = 1.0 / 16.0;
+  for (int tries = 0;; ++tries) {
+    const StepStatus status = stepper_->advance(t_limit);
+    if (status == StepStatus::ok) stepper_->fill_segment(segment_);
+    if (system_.is_whole()) return status;
+    end_ = status == StepStatus::ok ? branches_->find_end(segment_) : std::nullopt;
+    // one that seems to turn back at once may be bent by what it has met far beyond
+    const bool turns_back = end_ && std::abs(end_->time - time_) < smallest_step(time_);
+    const bool is_lost = status == StepStatus::not_finite || turns_back || (end_ && !end_->is_known);
+    if (!is_lost || !is_fixed_ || tries == kMostTries) return status;
+    t_limit = time_ + kShorter * (t_limit - time_);
+    stepper_->start(time_, state_);
+  }
+}
+
+void BranchedStepper::retake_to_end() {
+  constexpr double kNear = 1e-3;  // of the step: so near to its end its polynomial is as exact as that
+  constexpr double kLonger = 4.0;
+  const double direction = segment_.duration() < 0.0 ? -1.0 : 1.0;
+  double passing = std::abs(segment_.duration());  // a step so long has passed the end
+  for (int tries = 0; tries < most_retakes_; ++tries) {
+    const double last = std::abs(segment_.duration());
+    double next = kLonger * last;  // where the last one has seemed to pass it too early
+    if (end_) {
+      next = std::abs(end_->time - time_);
+      if (!end_->is_known || next > (1.0 - kNear) * last || next < smallest_step(time_)) return;
+      passing = last;
+    } else if (next >= passing) {
+      return;
+    }
+    stepper_->start(time_, state_);
+    if (stepper_->advance(time_ + direction * next) != StepStatus::ok) {
+      stepper_->start(time_, state_);
+      if (!end_ && stepper_->advance(segment_.t1()) == StepStatus::ok) stepper_->fill_segment(segment_);
+      return;
+    }
+    stepper_->fill_segment(segment_);
+    end_ = branches_->find_end(segment_);
+  }
+}
+
+void BranchedStepper::cut(const LawBranches::End& end) {
+  extended_ = stepper_->extended_state(static_cast<Extended>(end.time) - static_cast<Extended>(segment_.t0()));
+  segment_.set_interval(segment_.t0(), end.time);
+  time_ = end.time;
+  state_ = segment_.state(end.time);
+  passed_ = end;
+  begins_ = true;
+}
+
+bool BranchedStepper::amend(const State& q) {
+  if (!begins_ && !stepper_->amend(q)) return false;
+  state_ = q;
+  extended_.reset();
+  return true;
+}
+
+}  // namespace trajet

@@ -1,0 +1,216 @@
+// Laws that push to a border from both sides, as dry friction does: the motion stays there, and leaves when one side no
+// longer pushes.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "scene_run.hpp"
+
+namespace trajet {
+namespace {
+
+using test::number;
+using test::run_text;
+using test::Way;
+
+/// Ways, and what of the whole motion they may be off by.
+struct Method {
+  Way way;
+  double tolerance;
+};
+
+std::vector<Method> methods_for(double end) {
+  const auto controlled = [](const std::string& name, double rtol, double tolerance) {
+    return Method{test::controlled(name, rtol), tolerance};
+  };
+  const auto fixed = [&](const std::string& name, double tolerance) {
+    return Method{test::fixed(name, end / 500.0), tolerance};
+  };
+  return {controlled("taylor", 1e-12, 1e-9),
+          controlled("taylor-extended", 1e-12, 1e-9),
+          controlled("dopri5", 1e-10, 1e-7),
+          controlled("dop853", 1e-11, 1e-7),
+          controlled("rodas5p", 1e-9, 1e-6),
+          controlled("adams", 1e-10, 1e-5),
+          controlled("bdf", 1e-9, 1e-4),
+          controlled("bs32", 1e-8, 1e-4),
+          controlled("rosenbrock23", 1e-7, 1e-3),
+          controlled("trapezoid", 1e-7, 1e-3),
+          controlled("tr-bdf2", 1e-7, 1e-3),
+          fixed("rk4", 1e-5),
+          fixed("rk4-3/8", 1e-5),
+          fixed("gauss6", 1e-6),
+          fixed("series", 1e-5),
+          fixed("midpoint", 1e-3),
+          fixed("heun", 1e-3),
+          fixed("rk4-doubling", 1e-5),
+          fixed("euler", 1e-2)};
+}
+
+std::vector<EventRecord> events_named(const RunResult& result, const std::string& name) {
+  std::vector<EventRecord> found;
+  for (const EventRecord& event : result.events)
+    if (event.event == name) found.push_back(event);
+  return found;
+}
+
+/// Ways to write friction of the size b against the velocity.
+std::string friction(int way, double b) {
+  const std::string size = number(b), twice = number(2.0 * b);
+  switch (way % 4) {
+    case 0:
+      return "- " + size + "*sign(vx)";
+    case 1:
+      return "- where(vx > 0, " + size + ", where(vx < 0, -" + size + ", 0))";
+    case 2:
+      return "+ " + size + " - " + twice + "*(vx >= 0)";
+    default:
+      return "- where(vx >= 0, 1, -1)*" + size;
+  }
+}
+
+TEST(Sticking, ABlockOnAnInclinedPlane) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<> uniform(0.0, 1.0);
+  int stuck = 0;
+  for (int i = 0; i < 1200; ++i) {
+    const double gravity = 9.81, angle = 0.1 + 0.9 * uniform(random), mu = 0.1 + uniform(random);
+    const double a = gravity * std::sin(angle), b = mu * gravity * std::cos(angle);
+    const double v0 = i % 7 == 0 ? 0.0 : (i % 2 == 0 ? 1.0 : -1.0) * (0.5 + 4.0 * uniform(random));
+    const double end = 3.0;
+    const bool holds = b > a;
+    if (std::abs(a - b) < 0.05) continue;
+    // x'' = a - b sign(v): the time at which it stands still, if it does
+    const double slowing = v0 > 0.0 ? b - a : a + b;
+    const double stop = v0 == 0.0 ? 0.0 : slowing > 0.0 ? std::abs(v0) / slowing : 2.0 * end;
+    double x = v0 * end + 0.5 * (a - b) * end * end, v = v0 + (a - b) * end;
+    if (stop < end) {
+      const double rest = holds ? 0.0 : end - stop;
+      x = 0.5 * v0 * stop + 0.5 * (a - b) * rest * rest;
+      v = (a - b) * rest;
+    } else if (v0 < 0.0) {
+      x = v0 * end + 0.5 * (a + b) * end * end;
+      v = v0 + (a + b) * end;
+    }
+    const std::vector<Method> methods = methods_for(end);
+    const Method& method = methods[static_cast<std::size_t>(i) % methods.size()];
+    const std::string text = "[time]\nend = 3\n[method]\nmax_steps = 20000\n" + method.way.lines +
+                             "[[body]]\nname = \"block\"\nvelocity = [" + number(v0) + ", 0, 0]\nacceleration = [\"" +
+                             number(a) + " " + friction(i / 19, b) + "\", 0, 0]\n";
+    SCOPED_TRACE(text);
+    const RunResult result = run_text(text);
+    ASSERT_EQ(result.status, RunStatus::finished) << result.failure;
+    const BodyState& final = test::final_of(result, "block");
+    ASSERT_NEAR(final.position.x(), x, method.tolerance * 10.0);
+    ASSERT_NEAR(final.velocity.x(), v, method.tolerance * 10.0);
+    const std::vector<EventRecord> sticks = events_named(result, "sticks");
+    ASSERT_TRUE(events_named(result, "slips").empty());
+    ASSERT_EQ(sticks.size(), holds && stop < end ? 1u : 0u);
+    if (sticks.empty()) continue;
+    ++stuck;
+    ASSERT_NEAR(sticks[0].time, stop, method.tolerance * 10.0);
+    ASSERT_EQ(sticks[0].law, "acceleration of body 'block'");
+    if (v0 != 0.0) {
+      ASSERT_EQ(sticks[0].direction, v0 > 0.0 ? -1 : 1);
+    }
+    ASSERT_NEAR(final.velocity.x(), 0.0, 1e-9);
+    ASSERT_NEAR(final.acceleration.x(), 0.0, 1e-9);
+  }
+  EXPECT_GT(stuck, 300);
+}
+
+TEST(Sticking, AGrowingForceTearsABlockLoose) {
+  // x'' = 5 sin t - 3 sign(v), from rest: it slips where 5 sin t = 3
+  const double slip = std::asin(0.6), end = 2.0;
+  const double v = 5.0 * (std::cos(slip) - std::cos(end)) - 3.0 * (end - slip);
+  for (const Method& method : methods_for(end)) {
+    const RunResult result = run_text("[time]\nend = 2\n[method]\n" + method.way.lines +
+                                      "[[body]]\nname = \"block\"\nacceleration = [\"5*sin(t) - 3*sign(vx)\", 0, 0]\n");
+    SCOPED_TRACE(method.way.name + result.failure);
+    EXPECT_NEAR(test::final_of(result, "block").velocity.x(), v, 10.0 * method.tolerance);
+    ASSERT_EQ(result.events.size(), 2u);
+    EXPECT_EQ(result.events[0].event, "sticks");
+    EXPECT_EQ(result.events[0].time, 0.0);
+    EXPECT_EQ(result.events[1].event, "slips");
+    EXPECT_EQ(result.events[1].direction, 1);
+    EXPECT_NEAR(result.events[1].time, slip, 10.0 * method.tolerance);
+  }
+}
+
+TEST(Sticking, AThermostatHoldsItsTemperature) {
+  for (const Method& method : methods_for(10.0)) {
+    const RunResult result =
+        run_text("[time]\nend = 10\n[method]\n" + method.way.lines +
+                 "[[state]]\nname = \"u\"\nvalue = 10\nrate = \"where(u < 20, 5, -3) - 0.1*(u - 20)\"\n");
+    SCOPED_TRACE(method.way.name + result.failure);
+    EXPECT_NEAR(test::state_of(result, "u"), 20.0, 1e-6);
+    // u = 70 - 60 exp(-t/10)
+    const std::vector<EventRecord> sticks = events_named(result, "sticks");
+    ASSERT_EQ(sticks.size(), 1u);
+    EXPECT_NEAR(sticks[0].time, 10.0 * std::log(1.2), 100.0 * method.tolerance);
+    EXPECT_EQ(sticks[0].law, "rate of state 'u'");
+  }
+}
+
+// The upper block rides on the lower one, which the ground slows: two borders at once where both stand.
+TEST(Sticking, ABlockOnABlock) {
+  for (const Method& method : methods_for(3.0)) {
+    const RunResult result = run_text("[time]\nend = 3\n[method]\n" + method.way.lines + R"scene([[body]]
+name = "lower"
+velocity = [2, 0, 0]
+acceleration = ["-2*2*sign(lower.vx) + 3*sign(upper.vx - lower.vx)", 0, 0]
+[[body]]
+name = "upper"
+velocity = [2, 0, 0]
+acceleration = ["-3*sign(upper.vx - lower.vx)", 0, 0]
+)scene");
+    SCOPED_TRACE(method.way.name + result.failure);
+    // together they are slowed by 2
+    for (const char* name : {"lower", "upper"}) {
+      EXPECT_NEAR(test::final_of(result, name).position.x(), 1.0, 10.0 * method.tolerance) << name;
+      EXPECT_NEAR(test::final_of(result, name).velocity.x(), 0.0, 1e-9) << name;
+    }
+    const std::vector<EventRecord> sticks = events_named(result, "sticks");
+    ASSERT_EQ(sticks.size(), 2u);
+    EXPECT_NEAR(sticks[1].time, 1.0, 10.0 * method.tolerance);
+    EXPECT_TRUE(events_named(result, "slips").empty());
+  }
+}
+
+// A chain of stick and slip: a block on a belt, pulled back by a spring.
+TEST(Sticking, ABlockOnABeltSticksAndSlipsAgainAndAgain) {
+  // It rides on the belt to x = 0.5, and then swings, x = 0.5 + 0.2 sin: it is as fast as the belt a turn later only.
+  const double slip = 0.5 / 0.2, stick = slip + 2.0 * std::numbers::pi;
+  for (const Method& method : methods_for(10.0)) {
+    const RunResult result = run_text("[time]\nend = 10\n[method]\n" + method.way.lines + R"scene([[body]]
+name = "block"
+velocity = [0.2, 0, 0]
+acceleration = ["-x - 0.5*sign(vx - 0.2)", 0, 0]
+)scene");
+    SCOPED_TRACE(method.way.name + result.failure);
+    const std::vector<EventRecord> slips = events_named(result, "slips");
+    ASSERT_GE(slips.size(), 1u);
+    EXPECT_NEAR(slips[0].time, slip, 100.0 * method.tolerance);
+    EXPECT_EQ(slips[0].direction, -1);
+    for (const EventRecord& event : events_named(result, "sticks"))
+      EXPECT_TRUE(std::abs(event.time) < 1e-9 || event.time > stick - 1.0) << event.time;
+  }
+}
+
+TEST(Sticking, WhatCannotBeDecidedIsSaidWithItsPlace) {
+  Scene scene = parse_scene("[time]\nend = 1e3\n[[state]]\nname = \"u\"\nvalue = 1\nrate = \"0\"\n", "test.toml");
+  scene.tables["wanted"] =
+      std::make_shared<const LookupTable>(std::vector{0.0, 500.0, 1000.0}, std::vector{0.0, 1.0, 0.0});
+  scene.states[0].rate = Expression::parse("where(u > table(\"wanted\", t), -5, 5)", SourceLocation{"test.toml", 6, 9});
+  const RunResult result = run(scene);
+  EXPECT_EQ(result.status, RunStatus::failed);
+  EXPECT_EQ(result.failure,
+            "the law switches to and fro, and which of its branches holds cannot be decided: rate of state 'u' "
+            "(test.toml:6:9: where(u > table(\"wanted\", t), -5, 5))");
+}
+
+}  // namespace
+}  // namespace trajet
