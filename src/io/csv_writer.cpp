@@ -13,6 +13,10 @@ namespace {
 constexpr std::string_view kHeader = "t,body,x,y,z,vx,vy,vz,ax,ay,az,qw,qx,qy,qz,wx,wy,wz";
 constexpr std::string_view kNoBody = ",,,,,,,,,,,,,,,,,";
 
+std::string_view name_of(SamplePhase phase) {
+  return phase == SamplePhase::before ? "before" : phase == SamplePhase::after ? "after" : "";
+}
+
 void append(std::string& text, double value) {
   if (std::isnan(value))
     text += "nan";  // never "-nan": the sign of what is no number says nothing
@@ -34,14 +38,17 @@ void CsvWriter::sample(const Sample& sample) {
   if (!has_header_) {
     rows_ += kHeader;
     for (const NamedValue& state : sample.states) rows_ += "," + state.name;
-    rows_ += '\n';
+    rows_ += ",phase\n";
     has_header_ = true;
   }
+  const std::string_view phase = name_of(sample.phase);
   const auto append_states = [&] {
     for (const NamedValue& state : sample.states) {
       rows_ += ',';
       append(rows_, state.value);
     }
+    rows_ += ',';
+    rows_ += phase;
     rows_ += '\n';
   };
   for (const BodyState& body : sample.bodies) {

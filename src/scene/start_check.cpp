@@ -36,7 +36,7 @@ void check_starts(const World& world) {
     const double radius = bounding_radius(body.solid);
     const double open = kRounding * (position.norm() + radius);
     for (const World::Obstacle& obstacle : world.obstacles)
-      if (gap(obstacle.shape, position) - radius < -open)
+      if (obstacle.on_hit != OnHit::pass && gap(obstacle.shape, position) - radius < -open)
         throw InputError(body.where, "body '" + body.name + "' starts inside obstacle '" + obstacle.name + "'");
   }
 }

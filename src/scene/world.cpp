@@ -14,6 +14,7 @@
 #include "law_symbols.hpp"
 #include "never_zero.hpp"
 #include "partition.hpp"
+#include "restitution_maker.hpp"
 #include "scene_method.hpp"
 #include "scene_names.hpp"
 #include "scene_numbers.hpp"
@@ -43,6 +44,7 @@ class WorldBuilder {
   World build() {
     world_.scene = scene_.file;
     world_.title = scene_.title;
+    world_.up = scene_.up;
     world_.parameters = parameters_.values;
     world_.tables = scene_.tables;
     world_.warnings = scene_.warnings;
@@ -51,7 +53,7 @@ class WorldBuilder {
     world_.obstacles.reserve(scene_.obstacles.size());
     for (const ObstacleDefinition& obstacle : scene_.obstacles) {
       world_.obstacles.push_back(make_obstacle(obstacle, numbers_));
-      world_.obstacles.back().restitution = restitution_of(obstacle);
+      set_restitution(obstacle, world_.obstacles.back());
       world_.obstacles.back().color = obstacle.color;
     }
     find_dependencies();
@@ -94,12 +96,13 @@ class WorldBuilder {
     }
   }
 
-  double restitution_of(const ObstacleDefinition& obstacle) {
-    if (!obstacle.restitution) return 1.0;
+  void set_restitution(const ObstacleDefinition& obstacle, World::Obstacle& made) {
+    made.restitution = make_restitution(obstacle, parameters_.symbols, numbers_);
+    if (!obstacle.restitution) return;
+    made.restitution_where = obstacle.restitution->where();
     if (obstacle.on_hit != OnHit::bounce)
       world_.warnings.push_back("obstacle '" + obstacle.name +
                                 "' has a restitution, which nothing needs: its on_hit is not \"bounce\"");
-    return numbers_.within(*obstacle.restitution, 0.0, 1.0, "restitution of obstacle '" + obstacle.name + "'");
   }
 
   /// Joins `member` with all bodies and states that a formula of its own names.

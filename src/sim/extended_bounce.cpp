@@ -67,7 +67,9 @@ void bounce_extended(const World& world, const Pair& pair, Instant& instant) {
     if (!q) return;
   }
   RealVector velocity = slice.velocity(*q);
-  velocity -= (Real(1) + Real(obstacle.restitution)) * velocity.dot(gap.normal) * gap.normal;
+  const Real approach = velocity.dot(gap.normal);
+  const double restitution = obstacle.restitution.at(-static_cast<double>(approach));
+  velocity -= (Real(1) + Real(restitution)) * approach * gap.normal;
   // from the impact on to the instant, some roundings of time later or earlier
   const Real rest = nominal - tau;
   const RealVector acceleration = instant.free_acceleration(slice.first).cast<Real>();

@@ -44,12 +44,14 @@ Eigen::MatrixXd derivative_of_bounce(const World& world, const Pair& pair, const
   Eigen::MatrixXd derivative = instant.derivative;
   if (!(speed < 0.0)) return derivative;
 
-  // v+ = v - (1 + e) (r' . n) n, r' moving as v does
-  const double factor = 1.0 + obstacle.restitution;
+  // v+ = v - (1 + e(u)) (r' . n) n with u = -r' . n, r' moving as v does
+  const double factor = 1.0 + obstacle.restitution.at(-speed);
+  const double speed_factor = obstacle.restitution.change_rate(-speed);
   const Matrix3 N = curvature(obstacle.shape, pair.contact.point, instant.before().segment<3>(body.offset), n,
                               bounding_radius(body.solid));
-  derivative.block<3, 3>(body.offset + 3, body.offset) = -factor * (n * (approach.transpose() * N) + speed * N);
-  derivative.block<3, 3>(body.offset + 3, body.offset + 3) = Matrix3::Identity() - factor * n * n.transpose();
+  derivative.block<3, 3>(body.offset + 3, body.offset) =
+      -(speed_factor * n * (approach.transpose() * N) + factor * speed * N);
+  derivative.block<3, 3>(body.offset + 3, body.offset + 3) = Matrix3::Identity() - speed_factor * n * n.transpose();
   Eigen::RowVectorXd time = Eigen::RowVectorXd::Zero(rate.size());
   time.segment<3>(body.offset) = -n / speed;
   derivative += (derivative * rate - instant.rate()) * time;

@@ -52,7 +52,7 @@ bool Recorder::sample_until(double& time) {
 
 void Recorder::sample(double time) {
   if (!wishes_.samples) return;
-  observer_.sample(sample_at(time, std::nullopt));
+  observer_.sample(sample_at(time, std::nullopt, SamplePhase::none));
   last_sample_ = time;
 }
 
@@ -66,16 +66,17 @@ void Recorder::hand_on_no_more() {
   overlaps_.reset();
 }
 
-void Recorder::sample(double time, int body) {
+void Recorder::sample(double time, int body, SamplePhase phase) {
   if (!wishes_.samples) return;
   if (world_.bodies.size() == 1) last_sample_ = time;
-  observer_.sample(sample_at(time, body));
+  observer_.sample(sample_at(time, body, phase));
 }
 
-Sample Recorder::sample_at(double time, std::optional<int> only) const {
+Sample Recorder::sample_at(double time, std::optional<int> only, SamplePhase phase) const {
   Sample sample;
   sample.time = world_.epoch + time;
   sample.elapsed = time;
+  sample.phase = phase;
   const auto add = [&](const Course& course, std::span<const int> bodies) {
     const Eigen::VectorXd q = course.state(time);
     const Eigen::VectorXd rate = course.rate(time, q);
@@ -173,7 +174,7 @@ RunResult Recorder::result() {
   for (const auto& course : courses_) motion(*course, result_.elapsed);
   warn_of_overlap();
   if (result_.status != RunStatus::stopped && last_sample_ != result_.elapsed) sample(result_.elapsed);
-  result_.final = sample_at(result_.elapsed, std::nullopt);
+  result_.final = sample_at(result_.elapsed, std::nullopt, SamplePhase::none);
   bound_final_errors();
   for (const auto& course : courses_) {
     const StepStatistics statistics = course->statistics();

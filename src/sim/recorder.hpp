@@ -33,9 +33,9 @@ class Recorder {
   bool sample_until(double& time);
   /// From now on observers hear of no motion: there is no memory to keep it.
   void hand_on_no_more();
-  /// A sample of all bodies, or of one.
+  /// A sample of all bodies, or of one before or after something happens to it.
   void sample(double time);
-  void sample(double time, int body);
+  void sample(double time, int body, SamplePhase phase);
   /// The motion of a course on its current Segment up to time t.
   void motion(Course& course, double t);
 
@@ -61,7 +61,7 @@ class Recorder {
  private:
   /// Gives an impact the time of the scene's clock, whose digits its bound counts too.
   void put_on_clock(Impact& impact) const;
-  Sample sample_at(double time, std::optional<int> body) const;
+  Sample sample_at(double time, std::optional<int> body, SamplePhase phase) const;
   void bound_final_errors();
   void warn_of_overlap();
 

@@ -10,6 +10,7 @@
 #include "trajet/collide/sustain/rest.hpp"
 #include "trajet/geom/flat_faces.hpp"
 #include "trajet/law/evaluate.hpp"
+#include "trajet/text/shortest_text.hpp"
 
 namespace trajet {
 namespace {
@@ -26,6 +27,16 @@ double mass_of(const World::Body& body, double t, const Eigen::VectorXd& q) {
   return value;
 }
 
+/// Why the restitution of an obstacle does not tell what becomes of an impact.
+std::string describe_restitution(const World::Obstacle& obstacle, double restitution, double speed) {
+  const SourceLocation& where = obstacle.restitution_where;
+  const std::string place = where.line > 0 ? " (" + where.file.str() + ":" + std::to_string(where.line) + ":" +
+                                                 std::to_string(where.column) + ")"
+                                           : "";
+  return "restitution of obstacle '" + obstacle.name + "' is " + shortest_text(restitution) +
+         " at a speed of approach of " + shortest_text(speed) + " m/s, not within 0 and 1" + place;
+}
+
 }  // namespace
 
 void RunLoop::handle_contact(int index, const Pair& met) {
@@ -40,6 +51,12 @@ void RunLoop::handle_contact(int index, const Pair& met) {
                           "the reach of its farthest point from obstacle '" + obstacle.name +
                           "'; impacts of solids other than points and spheres are not supported yet");
   if (pair.contact.status == ContactStatus::overlapping_at_start) {
+    if (obstacle.on_hit == OnHit::pass) {
+      // it starts inside: the first that happens is that it comes out
+      encounters_.pass(pair.id, moving);
+      for (const int each : moving.group().bodies) encounters_.search(each, moving, moving.next().time);
+      return enqueue(index);
+    }
     if (time == 0.0)
       throw InputError(body.where, "body '" + body.name + "' starts inside obstacle '" + obstacle.name + "'");
     return fail(time, "body '" + body.name + "' is inside obstacle '" + obstacle.name + "'");
@@ -60,14 +77,14 @@ void RunLoop::handle_contact(int index, const Pair& met) {
     if (goes_on_from_contact(index, pair, impact)) return enqueue(index);
     return bounce(index, pair, impact);
   }
-  recorder_.sample(time, pair.id.body);
+  recorder_.sample(time, pair.id.body, SamplePhase::before);
   if (is_hit(pair.contact) && obstacle.on_hit == OnHit::stop) {
     recorder_.sample(time);
     recorder_.impact(impact);
     warn_of_hidden_ties(world_, encounters_, pair, impact, moving, recorder_);
     return stop();
   }
-  recorder_.sample(time, pair.id.body);
+  recorder_.sample(time, pair.id.body, SamplePhase::after);
   recorder_.impact(impact);
   encounters_.pass(pair.id, moving);
   for (const int each : moving.group().bodies) encounters_.search(each, moving, moving.next().time);
@@ -104,17 +121,21 @@ void RunLoop::bounce(int index, Pair pair, Impact impact) {
   Course& moving = course(index);
   const World::Body& body = body_of(pair);
   const double t = impact.elapsed;
-  recorder_.sample(t, pair.id.body);
+  recorder_.sample(t, pair.id.body, SamplePhase::before);
 
   Instant instant(moving, t);
   auto velocity = instant.q.segment<3>(body.offset + 3);
   // the velocity of the centre is dr/dt, which a position_rate may set apart from v
   const Eigen::VectorXd rate_before = instant.rate();
   const Vector3 approach = rate_before.segment<3>(body.offset);
+  const double speed_before = std::max(0.0, -approach.dot(impact.normal));
+  const double restitution = obstacle_of(pair).restitution.at(speed_before);
+  if (!(restitution >= 0.0 && restitution <= 1.0))
+    return fail(t, describe_restitution(obstacle_of(pair), restitution, speed_before));
   const double mass = mass_of(body, t, instant.q);
   const std::vector<Impact> group = bounce_plastic(world_, encounters_, pair, impact, mass, instant);
   if (group.empty()) {
-    velocity += rebound(approach, impact.normal, obstacle_of(pair).restitution).impulse_per_mass;
+    velocity += rebound(approach, impact.normal, restitution).impulse_per_mass;
     if (world_.extended && approach == Vector3(impact.velocity_before)) bounce_extended(world_, pair, instant);
     instant.derivative = derivative_of_bounce(world_, pair, instant, moving.rate(t, instant.before()));
     impact.velocity_after = velocity;
@@ -134,19 +155,19 @@ void RunLoop::bounce(int index, Pair pair, Impact impact) {
   }
 
   lasting_contacts_.release_by_speed(instant, pair.id.body);
-  if (!rest(instant, pair, impact, !is_hit)) return;
+  if (!rest(instant, pair, impact, restitution, !is_hit)) return;
   const bool stops = settle_other_contacts(world_, encounters_, pair, impact, instant, recorder_);
   ContactMemory memory = rebounded(pair.contact.memory);
   memory.contact_time = t;
   instant.memories.insert(instant.memories.begin(), {pair.id, memory});
   go_on(index, instant);
-  recorder_.sample(t, pair.id.body);
+  recorder_.sample(t, pair.id.body, SamplePhase::after);
   lasting_contacts_.record_until(t);
   if (stops) return stop();
   advance(index);
 }
 
-bool RunLoop::rest(Instant& instant, const Pair& pair, const Impact& impact, bool is_hidden) {
+bool RunLoop::rest(Instant& instant, const Pair& pair, const Impact& impact, double restitution, bool is_hidden) {
   const World::Body& body = body_of(pair);
   const World::Obstacle& obstacle = obstacle_of(pair);
   const double t = instant.time();
@@ -154,8 +175,8 @@ bool RunLoop::rest(Instant& instant, const Pair& pair, const Impact& impact, boo
   const double speed = std::max(0.0, impact.normal.dot(rate.segment<3>(body.offset)));
   const double pull = -impact.normal.dot(rate.segment<3>(body.offset + 3));
   const double tolerance = pair.contact.memory.tolerance;
-  const bool is_low = obstacle.restitution < 1.0 ? is_hidden || is_below_flight(speed, pull, tolerance)
-                                                 : is_lying(speed, pull, tolerance);
+  const bool is_low =
+      restitution < 1.0 ? is_hidden || is_below_flight(speed, pull, tolerance) : is_lying(speed, pull, tolerance);
   if (pull <= 0.0 || !is_low) return true;
   if (!is_flat_at(obstacle.shape, impact.point, impact.normal)) {
     fail(t, "body '" + body.name + "' comes to rest on the curved or sharp part of obstacle '" + obstacle.name +
@@ -174,7 +195,7 @@ bool RunLoop::rest(Instant& instant, const Pair& pair, const Impact& impact, boo
     }
     on = *next;
   }
-  lasting_contacts_.begin(instant, on, impact, t + bouncing_time(speed, pull, obstacle.restitution));
+  lasting_contacts_.begin(instant, on, impact, t + bouncing_time(speed, pull, restitution));
   lasting_contacts_.release_by_force(instant, pair.id.body);
   return true;
 }

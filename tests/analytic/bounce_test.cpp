@@ -50,6 +50,47 @@ TEST(Bounce, ARestBehindTheEndIsNotReported) {
   }
 }
 
+// Where a faster impact leaves less, each speed is known from the one before.
+TEST(Bounce, ARestitutionMayDependOnTheSpeedOfApproach) {
+  for (const std::string method : {"taylor", "taylor-extended", "dop853"}) {
+    for (const std::string slanted : {"normal = [0, 0, 1]", "normal = [0, 0.6, 0.8]"}) {
+      const std::string fall =
+          slanted.find("0.6") != std::string::npos ? "[0, \"-0.6*9.8\", \"-0.8*9.8\"]" : "[0, 0, -9.8]";
+      const RunResult result = test::run_text(
+          "[time]\nend = 6\n[method]\nname = \"" + method + "\"\n[[body]]\nname = \"ball\"\nposition = " +
+          (fall[4] == '0' ? "[0, 0, 10]" : "[0, 6, 8]") + "\nacceleration = " + fall +
+          "\n[[obstacle]]\nname = \"ground\"\nshape = \"plane\"\npoint = [0, 0, 0]\non_hit = \"bounce\"\n" + slanted +
+          "\nrestitution = \"0.9 - 0.02*u\"\n");
+      SCOPED_TRACE(method + fall + result.failure);
+      const auto hits = test::impacts_of(result, ImpactKind::hit);
+      ASSERT_GE(hits.size(), 4u);
+      double speed = std::sqrt(2.0 * 9.8 * 10.0), time = speed / 9.8;
+      for (int i = 0; i < 4; ++i) {
+        EXPECT_NEAR(hits[i]->time, time, 1e-9) << i;
+        EXPECT_NEAR(hits[i]->velocity_before.norm(), speed, 1e-9) << i;
+        speed *= 0.9 - 0.02 * speed;
+        EXPECT_NEAR(hits[i]->velocity_after.norm(), speed, 1e-9) << i;
+        time += 2.0 * speed / 9.8;
+      }
+    }
+  }
+}
+
+TEST(Bounce, ARestitutionOutsideOfItsRangeEndsTheRun) {
+  const std::string scene =
+      "[time]\nend = 6\n[[body]]\nname = \"ball\"\nposition = [0, 0, 5]\nacceleration = [0, 0, -10]\n" +
+      std::string(kBouncingGround);
+  const RunResult result = test::run_text(scene + "restitution = \"0.9 - 0.1*u\"\n");
+  EXPECT_EQ(result.status, RunStatus::failed);
+  EXPECT_EQ(result.failure.find("restitution of obstacle 'ground' is -0.09999999999999"), 0u) << result.failure;
+  EXPECT_NE(result.failure.find("at a speed of approach of 10"), std::string::npos) << result.failure;
+  EXPECT_NE(result.failure.find("not within 0 and 1 (test.toml:"), std::string::npos) << result.failure;
+  EXPECT_NEAR(result.end_time, 1.0, 1e-12);
+  // as a unit of the constant says
+  EXPECT_EQ(test::run_text("[parameters]\nk = \"0.05 s/m\"\n" + scene + "restitution = \"0.9 - k*u\"\n").status,
+            RunStatus::finished);
+}
+
 TEST(Bounce, ARestIsReportedWhereTheBodyIsThen) {
   // It slides at 1 m/s all the time.
   const Bouncing ball{9.81, 1.0, 0.0, 0.5};

@@ -243,7 +243,7 @@ shape = "sphere"
 center = [0, 0, 0]
 radius = 1
 on_hit = ")";
-  for (const std::string on_hit : {"stop", "bounce", "pass"}) {
+  for (const std::string on_hit : {"stop", "bounce"}) {
     try {
       run_text(scene + on_hit + "\"\n");
       ADD_FAILURE() << on_hit;
@@ -252,6 +252,36 @@ on_hit = ")";
       EXPECT_GT(error.where().line, 0);
     }
   }
+}
+
+TEST(Passing, AStartInsideWhatIsPassedComesOutFirst) {
+  struct Inside {
+    std::string obstacle;
+    double out;  // s, at 2 m/s along x from the origin
+  };
+  const std::vector<Inside> obstacles{{"shape = \"sphere\"\ncenter = [0.25, 0, 0]\nradius = 1\n", 0.625},
+                                      {"shape = \"box\"\ncenter = [0, 0, 0]\nsize = [3, 2, 2]\n", 0.75},
+                                      {"shape = \"plane\"\npoint = [0.5, 0, 0]\nnormal = [1, 0, 0]\n", 0.25}};
+  for (const Way& way : ways())
+    for (const Inside& inside : obstacles)
+      for (const double radius : {0.0, 0.125}) {
+        const std::string shape = radius > 0.0 ? "shape = \"sphere\"\nradius = 0.125\n" : "";
+        const RunResult result = run_text("[time]\nend = 4\n[method]\n" + way.lines + "[[body]]\nname = \"probe\"\n" +
+                                          shape + "velocity = [2, 0, 0]\n[[obstacle]]\nname = \"cloud\"\n" +
+                                          "on_hit = \"pass\"\n" + inside.obstacle + R"([[obstacle]]
+name = "behind"
+shape = "sphere"
+center = [5, 0, 0]
+radius = 1
+on_hit = "pass"
+)");
+        SCOPED_TRACE(way.name + inside.obstacle);
+        ASSERT_EQ(names(result), "cloud behind behind ");
+        EXPECT_NEAR(result.impacts[0].time, inside.out + radius / 2.0, 1e-12);
+        // towards the side that it came from
+        EXPECT_LT(result.impacts[0].normal.x(), 0.0);
+        EXPECT_NEAR(result.impacts[1].time, 2.0 - radius / 2.0, 1e-12);
+      }
 }
 
 TEST(Passing, AnImpactAtTheLastInstantCounts) {

@@ -71,6 +71,12 @@ const BadScene kBadScenes[] = {
     {"[method]\nsteps = [1]\nstep = 1", "4:9", "not both"},
     {"[method]\nmax_steps = 0", "4:13", "at least 1 expected, got 0"},
     {"[method]\nmax_steps = 1.5", "4:13", "got a number"},
+    {"[method]\nmax_step = 0\n[[body]]\nname = \"b\"", "4:12", "max_step must be positive, got 0"},
+    {"[method]\nmax_step = \"1 m\"", "4:15", "time [s] expected, got length [m]"},
+    {"[method]\nname = \"rk4\"\nmax_step = \"10 ms\"\nstep = 0.02\n[[body]]\nname = \"b\"", "6:8",
+     "step of 0.02 s is longer than max_step = 0.01 s"},
+    {"[method]\nname = \"rk4\"\nmax_step = \"10 ms\"\nsteps = [0.01, 0.02]\n[[body]]\nname = \"b\"", "6:16",
+     "step of 0.02 s is longer than max_step = 0.01 s"},
     {"[method]\norientation = \"matrx\"", "4:15", "did you mean 'matrix'?"},
     {"[method]\nlocate = \"linear\"", "4:10", "expected one of: polynomial, interpolation, subdivision"},
     {"[[obstacle]]\nname = \"o\"", "3:1", "lacks the key 'shape'"},
@@ -192,6 +198,15 @@ const BadScene kBadNumbers[] = {
     {"[[body]]\nname = \"b\"\n[[obstacle]]\nname = \"o\"\nshape = \"sphere\"\ncenter = [5,0,0]\nradius = 1\n"
      "on_hit = \"bounce\"\nrestitution = 1.0000001",
      "11:15", "must lie between 0 and 1, got 1.0000001"},
+    {"[[body]]\nname = \"b\"\n[[obstacle]]\nname = \"o\"\nshape = \"sphere\"\ncenter = [5,0,0]\nradius = 1\n"
+     "on_hit = \"bounce\"\nrestitution = \"0.9 - 0.1*w\"",
+     "11:26", "unknown name 'w'"},
+    {"[parameters]\nu = 0.5\n[[body]]\nname = \"b\"\n[[obstacle]]\nname = \"o\"\nshape = \"sphere\"\n"
+     "center = [5,0,0]\nradius = 1\non_hit = \"bounce\"\nrestitution = \"u\"",
+     "13:16", "`u` is the speed of approach: call the parameter otherwise"},
+    {"[parameters]\nk = \"0.1 kg\"\n[[body]]\nname = \"b\"\n[[obstacle]]\nname = \"o\"\nshape = \"sphere\"\n"
+     "center = [5,0,0]\nradius = 1\non_hit = \"bounce\"\nrestitution = \"0.9 - k*u\"",
+     "13:16", "number without unit [1] expected, got momentum [kg m/s]"},
     {"[method]\nstep = \"-1e-9 s\"\n[[body]]\nname = \"b\"", "4:9", "must be positive, got -1e-09"},
     {"[time]\nstart = -1e308\nend = 1e308\n[[body]]\nname = \"b\"", "3:7", "too far apart"},
 };

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "trajet/collide/respond/restitution_law.hpp"
 #include "trajet/geom/shapes.hpp"
 #include "trajet/geom/solid.hpp"
 #include "trajet/law/program.hpp"
@@ -64,7 +65,8 @@ struct World {
     Quaternion q_WB{1.0, 0.0, 0.0, 0.0};  ///< unit
     Shape shape;                          ///< the solid where it stands
     OnHit on_hit = OnHit::stop;
-    double restitution = 1.0;
+    RestitutionLaw restitution{};
+    SourceLocation restitution_where{};
   };
 
   struct ExtraState {
@@ -145,6 +147,7 @@ struct World {
 
   std::string scene;  ///< file name
   std::string title;
+  UpAxis up = UpAxis::z;
   /// The time at the start, s, as the scene's `t` has it. Everything behind the scene counts from there: the t of
   /// programs, of Segments and steps is the time elapsed, whose digits do not depend on the year.
   double epoch = 0.0;

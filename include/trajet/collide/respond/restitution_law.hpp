@@ -1,0 +1,29 @@
+#pragma once
+
+#include <optional>
+#include <utility>
+
+#include "trajet/law/program.hpp"
+
+namespace trajet {
+
+/// How much of the normal speed an impact leaves: a constant, or a function of the speed of approach u >= 0, m/s.
+class RestitutionLaw {
+ public:
+  RestitutionLaw(double constant = 1.0)
+      : constant_(constant) {}  // NOLINT(google-explicit-constructor): a number is one
+  /// Its first input is not read, the second is u.
+  explicit RestitutionLaw(Program of_speed) : of_speed_(std::move(of_speed)) {}
+
+  bool is_constant(double value) const { return !of_speed_ && constant_ == value; }
+  /// At speed u: it may lie outside of 0 and 1 where it is not constant.
+  double at(double u) const;
+  /// The derivative by u of (1 + e(u)) u, the change of the normal speed.
+  double change_rate(double u) const;
+
+ private:
+  double constant_ = 1.0;
+  std::optional<Program> of_speed_{};
+};
+
+}  // namespace trajet

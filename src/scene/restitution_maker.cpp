@@ -1,0 +1,26 @@
+#include "restitution_maker.hpp"
+
+#include <string>
+
+#include "trajet/law/program_builder.hpp"
+#include "trajet/portable.hpp"
+
+namespace trajet {
+
+RestitutionLaw make_restitution(const ObstacleDefinition& obstacle, const Symbols& constants,
+                                const SceneNumbers& numbers) {
+  if (!obstacle.restitution) return 1.0;
+  const Expression& formula = *obstacle.restitution;
+  const std::string speed = "u";
+  if (!ranges::any_of(formula.names(), [&](const std::string& name) { return name == speed; }))
+    return numbers.within(formula, 0.0, 1.0, "restitution of obstacle '" + obstacle.name + "'");
+  if (constants.find(speed) != nullptr)
+    throw InputError(formula.where(), "in a restitution `u` is the speed of approach: call the parameter otherwise");
+  Symbols symbols(&constants);
+  symbols.set_input(speed, 1);
+  ProgramBuilder program(2);
+  program.add_output(program.compile_scalar(formula, symbols));
+  return RestitutionLaw(program.build());
+}
+
+}  // namespace trajet
