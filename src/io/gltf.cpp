@@ -241,7 +241,7 @@ void write_gltf(const MotionRecord& motion, const RunResult& result, double fps,
   const int root = builder.add_root("world");
   // z up to y up: -90 degrees about x, (x, y, z) -> (x, z, -y)
   constexpr double kHalfSqrt2 = std::numbers::sqrt2 / 2.0;
-  builder.node(root).rotation = {-kHalfSqrt2, 0.0, 0.0, kHalfSqrt2};
+  if (motion.world().up == UpAxis::z) builder.node(root).rotation = {-kHalfSqrt2, 0.0, 0.0, kHalfSqrt2};
   builder.node(root).extras =
       Value(Value::Object{{"start_time", Value(result.start_time)}, {kRecordsKey, Value(std::string())}});
   add_bodies(builder, root, motion, result, extent, fps);

@@ -239,7 +239,7 @@ std::string MotionsPanel::space_script(const Frame& frame, const FigureSize& siz
   for (const std::size_t r : rows_) extents.push_back(ranges_of(extent_of(motions_[r])));
   const Ranges kept = shown_ranges(ranges_of(reference), extents,
                                    reference.isEmpty() ? 0.0 : kLeastExtent * reference.sizes().maxCoeff());
-  SpacePanel panel;
+  SpacePanel panel(world_.up);
   if (ranges::none_of(kept, &Range::is_empty))
     panel.show({Vector3(kept[0].low, kept[1].low, kept[2].low), Vector3(kept[0].high, kept[1].high, kept[2].high)});
   for (std::size_t b = 0; b < world_.bodies.size(); ++b) {
@@ -315,7 +315,7 @@ std::string MotionsPanel::plot_script(const Frame& frame) const {
 }
 
 PoseStrip MotionsPanel::strip() const {
-  PoseStrip strip(clock());
+  PoseStrip strip(clock(), world_.up);
   for (const std::size_t b : solids_) {
     const World::Body& body = world_.bodies[b];
     const std::string of = solids_.size() > 1 ? body.name + ": " : "";

@@ -76,8 +76,9 @@ int significant_degree(const Segment<>& segment, int component, double duration)
   return degree;
 }
 
-/// Appends a piece as numbers, its times those of the clock that shows `epoch` at the start: from, to, the Segment's t0, the degrees of all components, six to a number as its digits
-/// to the base 256, the first the least, and then the coefficients of each component, (t - t0)^0 first.
+/// Appends a piece as numbers, its times those of the clock that shows `epoch` at the start: from, to, the Segment's
+/// t0, the degrees of all components, six to a number as its digits to the base 256, the first the least, and then the
+/// coefficients of each component, (t - t0)^0 first.
 void append(std::vector<double>& numbers, const MotionRecord::Piece& piece, double epoch) {
   const Segment<>& segment = piece.segment;
   numbers.insert(numbers.end(), {epoch + piece.from, epoch + piece.to, epoch + segment.t0()});
@@ -213,6 +214,7 @@ void write_page_data(const PageRun& run, ScriptText& text) {
     text.add(",\"" + std::string(key) + "\":");
     text.add_value(value);
   };
+  add_member("up", world.up == UpAxis::y ? "y" : "z");
   add_member("orientation", orientation_way(world));
   add_member("bodies", bodies);
   add_member("states", states);

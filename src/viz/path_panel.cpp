@@ -48,6 +48,7 @@ PathPanel::PathPanel(const RunResult& result, const MotionRecord& record, const 
   for (int i = 0; i < 3 && !box.isEmpty(); ++i)
     if (box.sizes()[i] > kRounding * std::max(box.min().cwiseAbs().maxCoeff(), box.max().cwiseAbs().maxCoeff()))
       kept_.push_back(i);
+  if (world_.up == UpAxis::y && kept_ == std::vector{1, 2}) kept_ = {2, 1};  // y upward
   is_in_space_ = kept_.size() == 3 ||
                  ranges::any_of(world_.bodies, [&](const World::Body& body) { return is_turning_solid(body); });
 }
@@ -98,7 +99,7 @@ std::string PathPanel::script(const Frame& frame, const FigureSize& size) const 
 }
 
 SpacePanel PathPanel::space_panel() const {
-  SpacePanel panel;
+  SpacePanel panel(world_.up);
   std::size_t trails = 0;
   for (std::size_t b = 0; b < world_.bodies.size(); ++b) {
     const World::Body& body = world_.bodies[b];

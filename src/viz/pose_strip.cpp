@@ -61,11 +61,11 @@ std::string PoseStrip::script(const Frame& frame, const FigureSize& size) const 
     columns = std::max(columns, row.poses.size());
     for (const Pose& pose : row.poses)
       if (growth(pose) <= kMostGrowth)
-        largest = largest.cwiseMax(reach(draw_body(row.look, pose, Camera(), row.color)));
+        largest = largest.cwiseMax(reach(draw_body(row.look, pose, Camera(Vector3::Ones(), axes_), row.color)));
   }
   const Vector2 cell(panel.x() / static_cast<double>(columns), panel.y() / static_cast<double>(rows.size()));
   const Vector2 room(cell.x(), cell.y() - kTitle - kTimes);
-  const Camera camera(Vector3::Constant(0.5 * kFill * room.cwiseQuotient(largest).minCoeff()));
+  const Camera camera(Vector3::Constant(0.5 * kFill * room.cwiseQuotient(largest).minCoeff()), axes_);
 
   std::string script =
       place(frame) + fmt::format("set xrange [0:{:.1f}]\nset yrange [0:{:.1f}]\n", panel.x(), panel.y());
@@ -83,7 +83,8 @@ std::string PoseStrip::script(const Frame& frame, const FigureSize& size) const 
     add_label(row.title, 0.0, bottom + cell.y() - 0.4 * kTitle, "left tc '#505050'");
     for (std::size_t p = 0; p < row.poses.size(); ++p) {
       const Vector2 center(cell.x() * (static_cast<double>(p) + 0.5), bottom + kTimes + 0.5 * room.y());
-      if (shows_times) add_label(short_text(clock_.time(row.poses[p].time)) + " s", center.x(), bottom + 0.4 * kTimes, "center");
+      if (shows_times)
+        add_label(short_text(clock_.time(row.poses[p].time)) + " s", center.x(), bottom + 0.4 * kTimes, "center");
       if (!(growth(row.poses[p]) <= kMostGrowth)) {
         const double times = growth(row.poses[p]);
         add_label(std::isfinite(times) ? fmt::format("× {:.2g}", times) : "not finite", center.x(), center.y(),

@@ -14,7 +14,7 @@ namespace trajet::detail {
 /// have one scale, so that growth is seen.
 class PoseStrip {
  public:
-  explicit PoseStrip(const ShownClock& clock) : clock_(clock) {}
+  explicit PoseStrip(const ShownClock& clock, UpAxis up = UpAxis::z) : clock_(clock), axes_(up) {}
   void add_row(const std::string& title, const Look& look, const std::vector<Pose>& poses, Color color);
   bool is_empty() const { return rows_.empty(); }
   /// Pixels that a row should have.
@@ -32,6 +32,7 @@ class PoseStrip {
     Color color;
   };
   ShownClock clock_;
+  PictureAxes axes_;
   std::vector<Row> rows_;
 };
 

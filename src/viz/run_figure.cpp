@@ -107,7 +107,11 @@ std::vector<Curve> make_curves(const MotionRecord& record) {
 class RunFigure {
  public:
   RunFigure(const RunResult& result, const MotionRecord& record)
-      : result_(result), world_(record.world()), curves_(make_curves(record)), paths_(result, record, curves_), strip_(clock()) {
+      : result_(result),
+        world_(record.world()),
+        curves_(make_curves(record)),
+        paths_(result, record, curves_),
+        strip_(clock(), world_.up) {
     // a run that ends at its start has nothing to show against time
     const bool moves = ranges::any_of(curves_, [](const Curve& curve) { return !curve.times.empty(); });
     if (moves || paths_.is_empty()) body_count_ = std::min(world_.bodies.size(), kMostBodies);
@@ -257,8 +261,8 @@ class RunFigure {
     std::size_t count = 0;
     for (const Impact& impact : result_.impacts)
       if (impact.body == body && count++ < kMostImpactLines)
-        script += fmt::format("set arrow from {0}, graph 0 to {0}, graph 1 nohead ls 9 back\n",
-                              clock().time(impact.elapsed));
+        script +=
+            fmt::format("set arrow from {0}, graph 0 to {0}, graph 1 nohead ls 9 back\n", clock().time(impact.elapsed));
     return script;
   }
 

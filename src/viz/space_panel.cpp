@@ -63,10 +63,12 @@ Eigen::AlignedBox3d SpacePanel::axes_box() const {
     padded.max()[i] = range.high;
   }
   // the ground is the floor of the picture
+  const int up = axes_.up();
   for (const World::Obstacle& obstacle : obstacles_)
     if (const auto* plane = std::get_if<Plane>(&obstacle.shape);
-        plane != nullptr && plane->normal.head<2>().norm() < 1e-12 && plane->point.z() <= box.min().z())
-      padded.min().z() = std::max(padded.min().z(), plane->point.z());
+        plane != nullptr && (axes_.turn() * plane->normal).head<2>().norm() < 1e-12 &&
+        plane->point[up] <= box.min()[up])
+      padded.min()[up] = std::max(padded.min()[up], plane->point[up]);
   return padded;
 }
 
@@ -76,13 +78,13 @@ bool SpacePanel::has_one_scale(const Eigen::AlignedBox3d& box) const {
 
 double SpacePanel::aspect() const {
   const Eigen::AlignedBox3d box = axes_box();
-  return detail::aspect(box, has_one_scale(box));
+  return detail::aspect(box, has_one_scale(box), axes_);
 }
 
 std::string SpacePanel::script(const Frame& frame, const FigureSize& size) const {
   const Vector2 panel((frame.right - frame.left) * size.width, (frame.top - frame.bottom) * size.height);
   const Eigen::AlignedBox3d box = axes_box();
-  const View view = fit(box, has_one_scale(box), panel);
+  const View view = fit(box, has_one_scale(box), axes_, panel);
   const SpaceAxes axes = space_axes(box, view);
 
   std::string script =
@@ -123,7 +125,7 @@ std::string SpacePanel::script(const Frame& frame, const FigureSize& size) const
       for (const std::vector<Vector3>& part : within(paths[i].points, box)) {
         if (!rows.empty()) rows.emplace_back();
         for (Vector3 point : part) {
-          if (on_floor) point.z() = box.min().z();
+          if (on_floor) point[axes_.up()] = box.min()[axes_.up()];
           const Vector2 at = view.pixels(point);
           rows.push_back({at.x(), at.y()});
         }

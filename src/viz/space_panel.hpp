@@ -20,6 +20,8 @@ Eigen::AlignedBox3d extent(const Look& look, const Pose& pose);
 /// have the same scale, so that a ball is round; else each axis has its own.
 class SpacePanel {
  public:
+  explicit SpacePanel(UpAxis up) : axes_(up) {}
+
   /// `style`: as gnuplot's `with` takes it, `lines lw 2 lc 'red'`. Without a title it has no entry in the legend.
   void add_path(std::vector<Vector3> points, const std::string& style, const std::string& title = "");
   /// A path with its shadow on the floor.
@@ -49,6 +51,7 @@ class SpacePanel {
   Eigen::AlignedBox3d axes_box() const;
   bool has_one_scale(const Eigen::AlignedBox3d& box) const;
 
+  PictureAxes axes_;
   std::vector<Path> paths_, shadows_;
   std::vector<Body> bodies_;
   std::vector<World::Obstacle> obstacles_;

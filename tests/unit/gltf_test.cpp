@@ -115,6 +115,19 @@ restitution = 0.5
 )";
 
 // z(t) = 1.1 - 5 t^2 until the impact at sqrt(0.2), all from the start.
+// The root turns a scene of z up to glTF's y up, and no other.
+TEST(Gltf, ASceneOfYUpIsNotTurned) {
+  for (const std::string up : {"", "up = \"z\"\n", "up = \"y\"\n"}) {
+    const Scene scene =
+        parse_scene(up + "[time]\nend = 1\n[[body]]\nname = \"p\"\nvelocity = [0, 1, 0]\n", "test.toml");
+    MotionRecord motion;
+    const RunResult result = run(scene, &motion);
+    const Glb glb(gltf_binary(motion, result, 10.0));
+    EXPECT_EQ(glb.node("world").contains("rotation"), up.find('y') == std::string::npos) << up;
+    EXPECT_EQ(glb.keys("p").positions.back()[1], 1.0f);
+  }
+}
+
 TEST(Gltf, KeysAreTheMotion) {
   const auto [result, glb] = animate(kBouncingBall, 60.0);
   const Glb::Keys keys = glb.keys("ball");

@@ -157,8 +157,8 @@ export class Actor {
     const { motion } = this;
     const local = this.frame.toView(motion.position(t));
     this.place.copy(local).add(this.offset);
-    this.top.copy(this.place).z += this.widest;
-    this.foot.copy(this.place).z -= this.widest;
+    this.top.copy(this.place).addScaledVector(this.frame.axes.up, this.widest);
+    this.foot.copy(this.place).addScaledVector(this.frame.axes.up, -this.widest);
     const size = pixel(this.place);
     const s = this.frame.scale;
     const [xx, xy, xz, yx, yy, yz, zx, zy, zz] = motion.carriedMatrix(t).map((each) => s * each);

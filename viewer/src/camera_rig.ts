@@ -1,7 +1,7 @@
 import * as THREE from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import type { Ground } from "./scenery";
-import { cameraPlace, kViewSize, type ViewFrame } from "./view_frame";
+import { cameraPlace, kAxes, kViewSize, type ViewFrame } from "./view_frame";
 
 const kFieldOfViewDegrees = 35;
 /** How far over the ground the camera stays, in its distance. */
@@ -25,27 +25,30 @@ export function largestPolarAngle(
   n: THREE.Vector3,
   height: number,
   least: number,
+  up: THREE.Vector3 = kAxes.z.up,
 ): number {
-  // n·(target + distance (sin p outward + cos p z)) = height + least
-  const across = n.dot(outward);
-  const size = Math.hypot(n.z, across);
+  // n·(target + distance (sin p outward + cos p up)) = height + least
+  const [across, rise] = [n.dot(outward), n.dot(up)];
+  const size = Math.hypot(rise, across);
   const part = (height + least - n.dot(target)) / (distance * size);
   if (part <= -1) return Math.PI;
-  return Math.atan2(across, n.z) + Math.acos(Math.min(1, part));
+  return Math.atan2(across, rise) + Math.acos(Math.min(1, part));
 }
 
 /** The camera, what it looks at, and how the user turns it: never from under the ground. */
 export class CameraRig {
   readonly camera = new THREE.PerspectiveCamera(kFieldOfViewDegrees, 1, 0.01, 1000);
   readonly controls: OrbitControls;
+  private readonly up: THREE.Vector3;
   private readonly planes: { normal: THREE.Vector3; height: number }[];
   private height = 1;
 
   constructor(canvas: HTMLElement, frame: ViewFrame, grounds: readonly Ground[]) {
-    this.camera.up.set(0, 0, 1);
+    this.up = frame.axes.up;
+    this.camera.up.copy(this.up);
     this.controls = new OrbitControls(this.camera, canvas);
     this.planes = grounds
-      .filter(({ isSolid, normal }) => isSolid && normal.z > 0)
+      .filter(({ isSolid, normal }) => isSolid && normal.dot(this.up) > 0)
       .map(({ point, normal }) => ({ normal, height: frame.toView([point.x, point.y, point.z]).dot(normal) }));
     this.controls.addEventListener("change", () => this.stayAbove());
   }
@@ -97,10 +100,10 @@ export class CameraRig {
       for (const rise of kRises) {
         const [a, b] = [turn, rise].map(THREE.MathUtils.degToRad);
         const away = side.clone().multiplyScalar(Math.cos(a)).addScaledVector(end, Math.sin(a));
-        away.multiplyScalar(Math.cos(b)).setZ(Math.sin(b));
-        const bare = cameraPlace(points(0), middle, away, inside);
+        away.multiplyScalar(Math.cos(b)).addScaledVector(this.up, Math.sin(b));
+        const bare = cameraPlace(points(0), middle, away, inside, this.up);
         const all = points(arrowPixels * this.pixelAt(bare.distance));
-        const place = cameraPlace(all, middle, away, inside);
+        const place = cameraPlace(all, middle, away, inside, this.up);
         const score = this.filled(all, away, place) * (1 - kTurnCost * (turn - kTurns[0]));
         if (score > best.score) best = { score, away, ...place };
       }
@@ -145,12 +148,12 @@ export class CameraRig {
     const { target } = this.controls;
     const offset = this.camera.position.clone().sub(target);
     const distance = offset.length();
-    const outward = offset.clone().setZ(0).normalize();
+    const outward = offset.clone().projectOnPlane(this.up).normalize();
     const limits = this.planes.map(({ normal, height }) =>
-      largestPolarAngle(target, distance, outward, normal, height, kLeastHeight * distance),
+      largestPolarAngle(target, distance, outward, normal, height, kLeastHeight * distance, this.up),
     );
     const most = Math.max(0.01, Math.min(Math.PI, ...limits));
     this.controls.maxPolarAngle = most;
-    if (Math.acos(offset.z / distance) > most + 1e-9) this.controls.update();
+    if (Math.acos(offset.dot(this.up) / distance) > most + 1e-9) this.controls.update();
   }
 }

@@ -118,6 +118,8 @@ export interface ObstacleData {
 
 export interface RunData {
   report: Report;
+  /** The axis of the world that points up in pictures. */
+  up: "y" | "z";
   /** The way in which orientations are carried; null where nothing turns. */
   orientation: string | null;
   bodies: BodyData[];

@@ -1,8 +1,9 @@
 import * as THREE from "three";
 import { number, roundSpacing } from "./format";
 import type { LabelSpec, Side } from "./labels";
+import { type Axes, kAxes } from "./view_frame";
 
-/** A level grid of squares in the world: lines number u0 to u1 across x, and v0 to v1 across y. */
+/** A level grid of squares in the world: lines number u0 to u1 across `right`, and v0 to v1 across `away`. */
 export interface Grid {
   /** m; the side of a square. */
   spacing: number;
@@ -30,7 +31,7 @@ function textOf(value: number, isLast: boolean, name: string | null): string {
 }
 
 /** The numbers along two sides of a grid: in front of the picture and on its right. */
-export function gridLabels({ spacing, u0, u1, v0, v1, at, names }: Grid, isAlongX: boolean): LabelSpec[] {
+export function gridLabels({ spacing, u0, u1, v0, v1, at, names }: Grid, isAlongRight: boolean): LabelSpec[] {
   const label = (place: THREE.Vector3, i: number, isLast: boolean, name: string | null, side: Side): LabelSpec => ({
     at: place,
     text: textOf(i * spacing, isLast, name),
@@ -41,9 +42,9 @@ export function gridLabels({ spacing, u0, u1, v0, v1, at, names }: Grid, isAlong
   const [us, vs] = [evenNumbers(u0, u1), evenNumbers(v0, v1)];
   return [
     ...us.map((i) =>
-      label(at(i, isAlongX ? v1 : v0), i, i === us.at(-1), names?.[0] ?? null, isAlongX ? "right" : "below"),
+      label(at(i, isAlongRight ? v1 : v0), i, i === us.at(-1), names?.[0] ?? null, isAlongRight ? "right" : "below"),
     ),
-    ...vs.map((j) => label(at(u1, j), j, j === vs.at(-1), names?.[1] ?? null, isAlongX ? "below" : "right")),
+    ...vs.map((j) => label(at(u1, j), j, j === vs.at(-1), names?.[1] ?? null, isAlongRight ? "below" : "right")),
   ];
 }
 
@@ -62,18 +63,25 @@ const kNumbers = 4;
  * From the height of the grid, which is `bottom` in the world, to `top` (m); null where that is so little beside a square
  * that it is flat. `toView`: from metres to the drawing, along one axis.
  */
-export function heightScale(grid: Grid, isAlongX: boolean, bottom: number, top: number, toView: number): HeightScale | null {
+export function heightScale(
+  grid: Grid,
+  isAlongRight: boolean,
+  bottom: number,
+  top: number,
+  toView: number,
+  { right, away, up, names }: Axes = kAxes.z,
+): HeightScale | null {
   const { spacing } = grid;
   if (top - bottom < 0.5 * spacing) return null;
-  const foot = isAlongX ? grid.at(grid.u0, grid.v0) : grid.at(grid.u0, grid.v1);
+  const foot = isAlongRight ? grid.at(grid.u0, grid.v0) : grid.at(grid.u0, grid.v1);
   const step = roundSpacing((top - bottom) / kNumbers);
   const first = Math.ceil(bottom / step - 1e-6);
   const last = Math.floor(top / step + 1e-6);
-  const at = (z: number): THREE.Vector3 => foot.clone().setZ(foot.z + (z - bottom) * toView);
-  const tick = (isAlongX ? new THREE.Vector3(0, -1, 0) : new THREE.Vector3(-1, 0, 0)).multiplyScalar(0.2 * spacing * toView);
+  const at = (height: number): THREE.Vector3 => foot.clone().addScaledVector(up, (height - bottom) * toView);
+  const tick = (isAlongRight ? away : right).clone().multiplyScalar(-0.2 * spacing * toView);
   const lines = [at(bottom), at(top)];
   const labels: LabelSpec[] = [
-    { at: at(top), text: "z [m]", className: "label-scale", priority: 1.5, side: "above" },
+    { at: at(top), text: `${names[2]} [m]`, className: "label-scale", priority: 1.5, side: "above" },
   ];
   for (let i = first; i <= last; ++i) {
     const place = at(i * step);

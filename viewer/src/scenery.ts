@@ -5,7 +5,7 @@ import type { LabelSpec } from "./labels";
 import { type Grid, gridLabels, heightScale } from "./scales";
 import { vector } from "./shapes";
 import { cssColor } from "./theme";
-import { isSeenAlongX, type ViewFrame } from "./view_frame";
+import { isSeenAlongRight, type ViewFrame } from "./view_frame";
 
 /** A plane with a grid on it, in the world. `isSolid`: it is an obstacle, not a scale only. */
 export interface Ground {
@@ -61,12 +61,10 @@ export class Scenery {
     }
     // Without a plane the grid lies beneath everything, as a scale only.
     if (this.grounds.length === 0) {
-      const middle = frame.box.getCenter(new THREE.Vector3());
-      this.grounds.push({
-        point: new THREE.Vector3(middle.x, middle.y, frame.box.min.z),
-        normal: new THREE.Vector3(0, 0, 1),
-        isSolid: false,
-      });
+      const { up } = frame.axes;
+      const point = frame.box.getCenter(new THREE.Vector3());
+      point.addScaledVector(up, frame.box.min.dot(up) - point.dot(up));
+      this.grounds.push({ point, normal: up.clone(), isSolid: false });
     }
     this.grounds.forEach((ground, index) => this.addGround(ground, index === 0));
   }
@@ -81,6 +79,7 @@ export class Scenery {
   private addObstacle({ name, color }: ObstacleData, shape: Exclude<ObstacleShape, { kind: "plane" }>): void {
     const geometry = obstacleGeometry(shape);
     const { scale } = this.frame;
+    const { up } = this.frame.axes;
     const isClosed = shape.kind === "sphere" || shape.kind === "box" || (shape.kind === "mesh" && shape.closed);
     const material = isClosed ? this.closed : this.flat;
     const mesh = new THREE.Mesh(geometry, color ? material.clone() : material);
@@ -95,9 +94,9 @@ export class Scenery {
     this.group.add(mesh);
     this.solids.push(mesh);
     geometry.computeBoundingBox();
-    const top = geometry.boundingBox!.max.z * scale;
+    const top = geometry.boundingBox!.max.dot(up) * scale;
     this.labels.push({
-      at: mesh.position.clone().add(new THREE.Vector3(0, 0, top)),
+      at: mesh.position.clone().addScaledVector(up, top),
       text: name,
       className: "label-obstacle",
       priority: 1,
@@ -106,8 +105,9 @@ export class Scenery {
 
   /** A rectangle of whole squares under the picture, with scales if `isScale`. */
   private addGround({ point, normal: n, isSolid }: Ground, isScale: boolean): void {
-    const isLevel = Math.abs(n.z) > 0.999;
-    const u = isLevel ? new THREE.Vector3(1, 0, 0) : new THREE.Vector3(-n.y, n.x, 0).normalize();
+    const { right, up, names } = this.frame.axes;
+    const isLevel = Math.abs(n.dot(up)) > 0.999;
+    const u = isLevel ? right.clone() : up.clone().cross(n).normalize();
     const v = n.clone().cross(u);
     // The grid's lines pass through the foot of the world's origin; (0, 0) is there.
     const origin = n.clone().multiplyScalar(point.dot(n));
@@ -136,14 +136,16 @@ export class Scenery {
       this.group.add(new THREE.Mesh(new THREE.BufferGeometry().setFromPoints(corners), this.ground));
     }
     this.corners.push(at(u0, v0), at(u1, v0), at(u0, v1), at(u1, v1));
-    if (isScale) this.addScales({ spacing: this.spacing, u0, u1, v0, v1, at, names: isLevel ? ["x", "y"] : null }, point.z);
+    const level = isLevel ? ([names[0], names[1]] as [string, string]) : null;
+    if (isScale) this.addScales({ spacing: this.spacing, u0, u1, v0, v1, at, names: level }, point.dot(up));
   }
 
   /** `bottom`: m, how high the grid lies. */
   private addScales(grid: Grid, bottom: number): void {
-    const alongX = isSeenAlongX(this.frame.box);
-    this.labels.push(...gridLabels(grid, alongX));
-    const height = grid.names && heightScale(grid, alongX, bottom, this.frame.box.max.z, this.frame.scale);
+    const { axes, box, scale } = this.frame;
+    const alongRight = isSeenAlongRight(this.frame);
+    this.labels.push(...gridLabels(grid, alongRight));
+    const height = grid.names && heightScale(grid, alongRight, bottom, box.max.dot(axes.up), scale, axes);
     if (!height) return;
     this.group.add(new THREE.LineSegments(new THREE.BufferGeometry().setFromPoints(height.lines), this.edges));
     this.labels.push(...height.labels);

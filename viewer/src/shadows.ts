@@ -2,13 +2,13 @@ import * as THREE from "three";
 import type { Actor } from "./actor";
 import { dots } from "./drawing";
 import type { Ground } from "./scenery";
-import { kViewSize, type ViewFrame } from "./view_frame";
+import { type Axes, kAxes, kViewSize, type ViewFrame } from "./view_frame";
 
 /** Where the light goes while it goes down by 1: little, so that a shadow tells where a body is over the ground. */
 const kSlant = new THREE.Vector2(0.15, 0.25);
 /** How far from beneath a body its shadow falls at most, in squares of the grid. */
 const kMostSquares = 0.6;
-/** A ground that is steeper takes no shadows: the least z of its unit normal. */
+/** A ground that is steeper takes no shadows: the least upward part of its unit normal. */
 const kLeastUp = 0.3;
 /** How far over the ground shadows lie, in the drawing. */
 const kLift = 1e-4 * kViewSize;
@@ -16,9 +16,10 @@ const kLift = 1e-4 * kViewSize;
 const kDotPixels = 8;
 
 /** The ground that shadows fall on: the most level one; null where all are steep. */
-export function shadowedGround(grounds: readonly Ground[]): Ground | null {
-  const up = grounds.filter(({ normal }) => normal.z > kLeastUp);
-  return up.length === 0 ? null : up.reduce((best, each) => (each.normal.z > best.normal.z ? each : best));
+export function shadowedGround(grounds: readonly Ground[], { up }: Axes = kAxes.z): Ground | null {
+  const rise = ({ normal }: Ground): number => normal.dot(up);
+  const level = grounds.filter((each) => rise(each) > kLeastUp);
+  return level.length === 0 ? null : level.reduce((best, each) => (rise(each) > rise(best) ? each : best));
 }
 
 /** What carries a point of the drawing along `light` to the plane n·x = d. */
@@ -33,9 +34,9 @@ export function projection(n: THREE.Vector3, d: number, light: THREE.Vector3): T
 }
 
 /** The way of the light in a scene of that height, in squares of the grid. */
-export function lightOver(squares: number): THREE.Vector3 {
+export function lightOver(squares: number, { right, away, up }: Axes = kAxes.z): THREE.Vector3 {
   const slant = kSlant.clone().multiplyScalar(Math.min(1, kMostSquares / (kSlant.length() * squares || 1)));
-  return new THREE.Vector3(slant.x, slant.y, -1).normalize();
+  return up.clone().negate().addScaledVector(right, slant.x).addScaledVector(away, slant.y).normalize();
 }
 
 interface Cast {
@@ -71,7 +72,8 @@ export class Shadows {
     this.normal = ground.normal;
     const { x, y, z } = ground.point;
     this.height = frame.toView([x, y, z]).dot(this.normal);
-    const light = lightOver((frame.box.max.z - frame.box.min.z) / spacing);
+    const { up } = frame.axes;
+    const light = lightOver((frame.box.max.dot(up) - frame.box.min.dot(up)) / spacing, frame.axes);
     this.flatten = projection(this.normal, this.height + kLift, light);
     this.still = solids.map((source) => this.cast(source));
     this.moving = actors.map((actor) => {

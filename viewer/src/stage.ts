@@ -14,7 +14,7 @@ import { Scenery } from "./scenery";
 import { shadowedGround, Shadows } from "./shadows";
 import { colorOf, cssColor } from "./theme";
 import { Triad } from "./triad";
-import { isSeenAlongX, kViewSize, sceneBox, ViewFrame } from "./view_frame";
+import { isSeenAlongRight, kAxes, kViewSize, sceneBox, ViewFrame } from "./view_frame";
 
 /** A ghost is seen through. */
 const kGhostOpacity = 0.45;
@@ -81,7 +81,7 @@ export class Stage {
     this.scale = element("span", { class: "scale" });
     container.append(domElement, layer, this.scale, this.triad.root);
 
-    this.frame = new ViewFrame(sceneBox(runs));
+    this.frame = new ViewFrame(sceneBox(runs), kAxes[runs[0].data.up]);
     this.time = runs[0].begin;
     this.chosenBody = runs[0].bodies[0]?.name ?? null;
     this.addLights();
@@ -92,7 +92,7 @@ export class Stage {
     this.rig.controls.addEventListener("change", events.changed);
     this.rig.controls.addEventListener("start", () => (this.showsAll = false));
     runs.forEach((run, index) => this.addRun(run, index));
-    const ground = shadowedGround(this.scenery.grounds);
+    const ground = shadowedGround(this.scenery.grounds, this.frame.axes);
     this.shadows =
       ground && new Shadows(this.frame, this.scenery.spacing, ground, this.scenery.solids, this.actors.flat());
     if (this.shadows) this.scene.add(this.shadows.group);
@@ -107,7 +107,8 @@ export class Stage {
   private addLights(): void {
     this.scene.add(new THREE.HemisphereLight("#ffffff", "#8a8a80", 2.2));
     const sun = new THREE.DirectionalLight("#ffffff", 1.6);
-    sun.position.set(-4, -6, 9);
+    const { right, away, up } = this.frame.axes;
+    sun.position.setScalar(0).addScaledVector(right, -4).addScaledVector(away, -6).addScaledVector(up, 9);
     this.scene.add(sun);
   }
 
@@ -146,13 +147,12 @@ export class Stage {
   /** From a run to the next, in the drawing: the scene's depth, or, where a body is followed, its width. */
   private get spread(): THREE.Vector3 {
     if (!this.isSideBySide) return new THREE.Vector3();
-    const alongX = new THREE.Vector3(1, 0, 0);
-    const alongY = new THREE.Vector3(0, 1, 0);
-    if (this.followed)
-      return (isSeenAlongX(this.frame.box) ? alongY : alongX).multiplyScalar(kBodySpacing * this.followedReach);
+    const { right, away } = this.frame.axes;
+    const [across, along] = isSeenAlongRight(this.frame) ? [right, away] : [away, right];
+    if (this.followed) return along.clone().multiplyScalar(kBodySpacing * this.followedReach);
     const size = this.frame.box.getSize(new THREE.Vector3());
-    const step = 1.15 * Math.min(size.x, size.y) + 0.1 * Math.max(size.x, size.y, size.z);
-    return (isSeenAlongX(this.frame.box) ? alongX : alongY).multiplyScalar(step * this.frame.scale);
+    const step = 1.15 * Math.min(size.dot(right), size.dot(away)) + 0.1 * Math.max(size.x, size.y, size.z);
+    return across.clone().multiplyScalar(step * this.frame.scale);
   }
 
   /** Of the body that is followed, the largest of all runs. */
@@ -213,8 +213,8 @@ export class Stage {
       signs.flatMap((y) => signs.map((z) => new THREE.Vector3(x, y, z).multiply(half).add(middle))),
     );
     corners.push(...this.scenery.corners);
-    const [x, y] = [new THREE.Vector3(1, 0, 0), new THREE.Vector3(0, 1, 0)];
-    const [side, end] = isSeenAlongX(this.frame.box) ? [x, y.negate()] : [y.negate(), x.negate()];
+    const [right, nearer] = [this.frame.axes.right.clone(), this.frame.axes.away.clone().negate()];
+    const [side, end] = isSeenAlongRight(this.frame) ? [right, nearer] : [nearer, right.negate()];
     // of many bodies few have arrows
     const pointing = this.actors.flatMap((actors) => (actors.length > kManyBodies ? actors.slice(0, 1) : actors));
     this.rig.frame(

@@ -7,12 +7,32 @@ import { reach, vector } from "./shapes";
 /** The scene is drawn about this large, whatever its size in metres, so that single precision is enough. */
 export const kViewSize = 10;
 
+/** The axes of the world as a picture has them: two level ones, and the one that points up. */
+export interface Axes {
+  right: THREE.Vector3;
+  away: THREE.Vector3;
+  up: THREE.Vector3;
+  /** Of the three. */
+  names: readonly [string, string, string];
+}
+
+const [kX, kY, kZ] = [new THREE.Vector3(1, 0, 0), new THREE.Vector3(0, 1, 0), new THREE.Vector3(0, 0, 1)];
+
+/** By the axis that points up. */
+export const kAxes: Record<"y" | "z", Axes> = {
+  y: { right: kZ, away: kX, up: kY, names: ["z", "x", "y"] },
+  z: { right: kX, away: kY, up: kZ, names: ["x", "y", "z"] },
+};
+
 /** From metres in the world to the units of the drawing: p -> (p - center) * scale. */
 export class ViewFrame {
   readonly scale: number;
   readonly center: Vector;
 
-  constructor(readonly box: THREE.Box3) {
+  constructor(
+    readonly box: THREE.Box3,
+    readonly axes: Axes = kAxes.z,
+  ) {
     const center = box.getCenter(new THREE.Vector3());
     this.center = [center.x, center.y, center.z];
     const size = box.getSize(new THREE.Vector3());
@@ -28,10 +48,10 @@ export class ViewFrame {
   }
 }
 
-/** Whether a scene is looked at along x, rather than along y, so that its longer side goes from left to right. */
-export function isSeenAlongX(box: THREE.Box3): boolean {
-  const { x, y } = box.getSize(new THREE.Vector3());
-  return y > x;
+/** Whether a scene is looked at along `right`, rather than along `away`, so that its longer side goes from left to right. */
+export function isSeenAlongRight({ box, axes }: ViewFrame): boolean {
+  const size = box.getSize(new THREE.Vector3());
+  return size.dot(axes.away) > size.dot(axes.right);
 }
 
 /**
@@ -45,8 +65,9 @@ export function cameraPlace(
   middle: THREE.Vector3,
   away: THREE.Vector3,
   halfAngles: { horizontal: number; vertical: number },
+  upward: THREE.Vector3 = kZ,
 ): { target: THREE.Vector3; distance: number } {
-  const side = new THREE.Vector3(0, 0, 1).cross(away).normalize();
+  const side = upward.clone().cross(away).normalize();
   const up = away.clone().cross(side);
   const depth = middle.dot(away);
   const target = away.clone().multiplyScalar(depth);

@@ -11,11 +11,13 @@ import { dashOf, widthOf } from "../src/plot_caption";
 import { drawMoments } from "../src/plot_moments";
 import { quantitiesOf } from "../src/quantities";
 import { trailOf } from "../src/sampling";
+import { heightScale } from "../src/scales";
+import { Scenery } from "../src/scenery";
 import { lightOver, projection, shadowedGround, Shadows } from "../src/shadows";
 import { bodyGeometry } from "../src/shapes";
 import { Track } from "../src/track";
 import { Tail, trailLine, WholeTrail } from "../src/trail_line";
-import { ViewFrame } from "../src/view_frame";
+import { isSeenAlongRight, kAxes, ViewFrame } from "../src/view_frame";
 import { constant, piece } from "./pieces";
 
 const rotation: RotationData = {
@@ -216,7 +218,7 @@ describe("a shadow", () => {
 
 describe("curves", () => {
   const run = (state: number[][]): RunData => ({
-    report: report(), orientation: "quaternion", bodies: [body({ rotation })], states: [], obstacles: [],
+    report: report(), up: "z", orientation: "quaternion", bodies: [body({ rotation })], states: [], obstacles: [],
     groups: [{ dimension: 13, pieces: encoded(piece(0, 1, 0, ...state)) }],
   }); // prettier-ignore
   // along x and y alike, z is rounding; a unit quaternion but for 3.5e-15
@@ -278,5 +280,39 @@ describe("the camera", () => {
     // far over the ground there is no limit
     const [x, z] = [new THREE.Vector3(1, 0, 0), new THREE.Vector3(0, 0, 1)];
     expect(largestPolarAngle(new THREE.Vector3(0, 0, 50), 20, x, z, 0, 0)).toBe(Math.PI);
+  });
+});
+
+describe("a scene whose y axis points up", () => {
+  // a shot along x
+  const box = new THREE.Box3(new THREE.Vector3(-1, 0, -2), new THREE.Vector3(9, 4, 2));
+  const frame = new ViewFrame(box, kAxes.y);
+  const y = new THREE.Vector3(0, 1, 0);
+
+  it("has its grid beneath, with the names of its level axes, and a scale of its heights", () => {
+    const [{ point, normal }] = new Scenery(frame, []).grounds;
+    expect(normal.toArray()).toEqual([0, 1, 0]);
+    expect(point.y).toBe(0);
+    const texts = new Scenery(frame, []).labels.map(({ text }) => text);
+    for (const name of ["x = ", "z = "]) expect(texts.some((text) => text.startsWith(name))).toBe(true);
+    expect(texts).toContain("y [m]");
+    const grid = { spacing: 1, u0: 0, u1: 1, v0: 0, v1: 1, at: () => new THREE.Vector3(), names: null };
+    const scale = heightScale(grid, true, 0, 4, 1, kAxes.y);
+    expect(scale?.top.toArray()).toEqual([0, 4, 0]);
+  });
+
+  it("is seen from the side, along z, so that x goes from left to right", () => {
+    expect(isSeenAlongRight(frame)).toBe(true);
+    expect(kAxes.y.right.toArray()).toEqual([0, 0, 1]);
+    const { right, away, up } = kAxes.y;
+    expect(right.clone().cross(away).dot(up)).toBe(1);
+  });
+
+  it("has light from above, and the camera over its ground", () => {
+    expect(lightOver(1, kAxes.y).dot(y)).toBeLessThan(-0.9);
+    expect(shadowedGround([{ point: new THREE.Vector3(), normal: y, isSolid: true }], kAxes.y)).not.toBeNull();
+    const [z] = [new THREE.Vector3(0, 0, 1)];
+    const most = largestPolarAngle(new THREE.Vector3(0, 1, 0), 20, z, y, 0, 0, y);
+    expect(20 * Math.cos(most) + 1).toBeCloseTo(0, 9);
   });
 });

@@ -151,6 +151,7 @@ describe("a run of no duration", () => {
       final: [{ ...state, orientation: [half, 0, 0, half], rotation_matrix: [[0, -1, 0], [1, 0, 0], [0, 0, 1]], angular_velocity: [7, 0, 0] } as FinalState],
       states: { m: 8 },
     },
+    up: "z",
     orientation: kind,
     bodies: [body({ rotation: rotation({ kind, frame, angular_velocity }) })],
     states: [{ name: "m", group: 0, component: angular_velocity + 3 }],
@@ -177,6 +178,7 @@ describe("a run of no duration", () => {
 describe("runs", () => {
   const run = (method: string, orientation: string | null): RunData => ({
     report: { title: "", scene: "", method, status: "finished", start_time: 0, end_time: 1, parameters: {}, impacts: [], events: [], final: [], states: {}, warnings: [], statistics: {} },
+    up: "z",
     orientation,
     bodies: [],
     states: [],

@@ -16,8 +16,8 @@ inline constexpr double kMostAnimationKeys = 1e6;
 /// A node per body and obstacle, named after it. Every body has translation keys, and rotation keys if it turns: `fps`
 /// > 0 keys a second, one at the end, two at each impact and event, and as many more where it turns fast that
 /// neighbours are at most a quarter of a turn apart, so that linear interpolation shows it where it is. Key times count
-/// from the start of the run. Keys are in the scene's world frame, z up, the meshes of obstacles in frames of their
-/// own; the root node `world` turns the scene to the y up of glTF. That node carries the impacts and events as
+/// from the start of the run. Keys are in the scene's world frame, the meshes of obstacles in frames of their
+/// own; the root node `world` turns a scene of z up to the y up of glTF. That node carries the impacts and events as
 /// `extras`. Throws std::length_error where `fps` gives more than kMostAnimationKeys keys, FileError where a body turns
 /// too fast for so many, or a file would be larger than glTF allows (4 GiB).
 ///
