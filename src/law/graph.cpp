@@ -48,28 +48,6 @@ constexpr Twins kTwins[] = {{Opcode::sin, Opcode::cos, Opcode::sin_cos},
 
 }  // namespace
 
-int operand_count(Opcode opcode) {
-  switch (opcode) {
-    case Opcode::where:
-    case Opcode::norm:
-      return 3;
-    case Opcode::add:
-    case Opcode::subtract:
-    case Opcode::multiply:
-    case Opcode::divide:
-    case Opcode::power:
-    case Opcode::atan2:
-    case Opcode::min:
-    case Opcode::max:
-    case Opcode::less:
-    case Opcode::less_equal:
-    case Opcode::equal:
-      return 2;
-    default:
-      return 1;
-  }
-}
-
 std::size_t Graph::KeyHash::operator()(const Key& key) const {
   std::uint64_t hash = key.constant_bits[0] + 31 * key.constant_bits[1] + static_cast<std::uint64_t>(key.opcode);
   for (const int operand : key.operands) {

@@ -7,10 +7,10 @@
 
 namespace trajet {
 
-RestitutionLaw make_restitution(const ObstacleDefinition& obstacle, const Symbols& constants,
+namespace {
+
+RestitutionLaw make_restitution(const ObstacleDefinition& obstacle, const Expression& formula, const Symbols& constants,
                                 const SceneNumbers& numbers) {
-  if (!obstacle.restitution) return 1.0;
-  const Expression& formula = *obstacle.restitution;
   const std::string speed = "u";
   if (!ranges::any_of(formula.names(), [&](const std::string& name) { return name == speed; }))
     return numbers.within(formula, 0.0, 1.0, "restitution of obstacle '" + obstacle.name + "'");
@@ -21,6 +21,19 @@ RestitutionLaw make_restitution(const ObstacleDefinition& obstacle, const Symbol
   ProgramBuilder program(2);
   program.add_output(program.compile_scalar(formula, symbols));
   return RestitutionLaw(program.build());
+}
+
+}  // namespace
+
+void set_restitution(const ObstacleDefinition& obstacle, const Symbols& constants, const SceneNumbers& numbers,
+                     World& world) {
+  if (!obstacle.restitution) return;
+  World::Obstacle& made = world.obstacles.back();
+  made.restitution = make_restitution(obstacle, *obstacle.restitution, constants, numbers);
+  made.restitution_where = obstacle.restitution->where();
+  if (obstacle.on_hit != OnHit::bounce)
+    world.warnings.push_back("obstacle '" + obstacle.name +
+                             "' has a restitution, which nothing needs: its on_hit is not \"bounce\"");
 }
 
 }  // namespace trajet

@@ -53,7 +53,7 @@ class WorldBuilder {
     world_.obstacles.reserve(scene_.obstacles.size());
     for (const ObstacleDefinition& obstacle : scene_.obstacles) {
       world_.obstacles.push_back(make_obstacle(obstacle, numbers_));
-      set_restitution(obstacle, world_.obstacles.back());
+      set_restitution(obstacle, parameters_.symbols, numbers_, world_);
       world_.obstacles.back().color = obstacle.color;
     }
     find_dependencies();
@@ -94,15 +94,6 @@ class WorldBuilder {
       world_.sample =
           duration > 0.0 ? std::max(duration / kDefaultSampleCount, std::numeric_limits<double>::min()) : 1.0;
     }
-  }
-
-  void set_restitution(const ObstacleDefinition& obstacle, World::Obstacle& made) {
-    made.restitution = make_restitution(obstacle, parameters_.symbols, numbers_);
-    if (!obstacle.restitution) return;
-    made.restitution_where = obstacle.restitution->where();
-    if (obstacle.on_hit != OnHit::bounce)
-      world_.warnings.push_back("obstacle '" + obstacle.name +
-                                "' has a restitution, which nothing needs: its on_hit is not \"bounce\"");
   }
 
   /// Joins `member` with all bodies and states that a formula of its own names.
@@ -255,8 +246,7 @@ class WorldBuilder {
       const World::Body& body = world_.bodies[i];
       if (!scene_.bodies[i].mass) continue;
       double mass = 0.0;
-      Evaluator<double> (*body.mass)(0.0, world_.groups[static_cast<std::size_t>(body.group)].start.data(),
-                                     &mass);
+      Evaluator<double> (*body.mass)(0.0, world_.groups[static_cast<std::size_t>(body.group)].start.data(), &mass);
       if (!(mass > 0.0))
         throw InputError(scene_.bodies[i].mass->where(), "mass of body '" + body.name + "' must be positive");
     }
