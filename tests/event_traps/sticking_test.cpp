@@ -200,6 +200,25 @@ acceleration = ["-x - 0.5*sign(vx - 0.2)", 0, 0]
   }
 }
 
+// Whatever the clock shows: from 1 the state comes to 0 in 1 s, and its rate would turn round again and again.
+TEST(Sticking, AStateStaysWhereItsRateTurnsRound) {
+  for (const Method& method : methods_for(3.0))
+    for (const std::string start : {"0", "1e8"}) {
+      const RunResult result = run_text("[time]\nstart = " + start + "\nend = \"" + start +
+                                        " + 3\"\n[method]\nmax_steps = 10000\n" + method.way.lines +
+                                        "[[state]]\nname = \"calm\"\nvalue = 1\nrate = 1\n"
+                                        "[[state]]\nname = \"x\"\nvalue = 1\nrate = \"where(x > 0, -k, k)\"\n"
+                                        "[parameters]\nk = 1\n");
+      SCOPED_TRACE(method.way.name + " " + start + result.failure);
+      EXPECT_EQ(result.status, RunStatus::finished);
+      EXPECT_NEAR(test::state_of(result, "x"), 0.0, 1e-9);
+      EXPECT_NEAR(test::state_of(result, "calm"), 4.0, 1e-9);
+      const std::vector<EventRecord> sticks = events_named(result, "sticks");
+      ASSERT_EQ(sticks.size(), 1u);
+      EXPECT_NEAR(sticks[0].elapsed, 1.0, 1e-9);
+    }
+}
+
 TEST(Sticking, WhatCannotBeDecidedIsSaidWithItsPlace) {
   Scene scene = parse_scene("[time]\nend = 1e3\n[[state]]\nname = \"u\"\nvalue = 1\nrate = \"0\"\n", "test.toml");
   scene.tables["wanted"] =
