@@ -1,6 +1,7 @@
 #include "trajet/geom/flat_faces.hpp"
 
 #include <cmath>
+#include <type_traits>
 #include <variant>
 
 #include "trajet/geom/distance.hpp"
@@ -136,6 +137,18 @@ bool is_thin(const Shape& shape) { return std::visit(Thin(), shape); }
 bool looks_down(const Shape& shape, const Vector3& point, const Vector3& normal) {
   const std::optional<Vector3> positive = std::visit(PositiveSide(point, normal), shape);
   return positive && positive->dot(normal) < 0.0;
+}
+
+std::optional<Vector3> plane_normal(const Shape& shape) {
+  return std::visit(
+      [](const auto& s) -> std::optional<Vector3> {
+        using S = std::decay_t<decltype(s)>;
+        if constexpr (std::is_same_v<S, Disk> || std::is_same_v<S, Rectangle> || std::is_same_v<S, Triangle>)
+          return s.normal;
+        else
+          return std::nullopt;
+      },
+      shape);
 }
 
 bool is_flat_at(const Shape& shape, const Vector3& point, const Vector3& normal) {

@@ -14,6 +14,9 @@
 namespace trajet {
 namespace {
 
+/// A step this high, of the place and the size, is none.
+constexpr double kStep = 1e-12;
+
 /// A point of a face a little ahead of where a body is: at an edge, in the face into which it moves.
 Vector3 ahead_of(const Vector3& point, const Vector3& velocity) {
   constexpr double kAhead = 1e-9;  // of the size of the coordinates
@@ -39,11 +42,14 @@ void LastingContacts::begin(Instant& instant, PairId id, const Impact& impact, d
 void LastingContacts::release_by_speed(Instant& instant, int moved) {
   const int offset = body(moved).offset;
   const double pull = instant.free_acceleration(offset).norm();
+  // of the products of speeds and normals by which the velocity came about
+  const double rounding = 16.0 * kUnitRoundoff * (instant.q.segment<3>(offset + 3).norm() +
+                                                  instant.before().segment<3>(offset + 3).norm());
   for (std::size_t i = 0; i < instant.contacts.size();) {
     const RestingContact contact = instant.contacts[i];
     const double speed = instant.q.segment<3>(offset + 3).dot(contact.normal);
     const double tolerance = encounters_.pair({contact.body, contact.obstacle}).memory.tolerance;
-    if (contact.body != moved || is_below_flight(speed, pull, tolerance)) {
+    if (contact.body != moved || std::abs(speed) <= rounding || is_below_flight(speed, pull, tolerance)) {
       ++i;
       continue;
     }
@@ -140,7 +146,6 @@ bool LastingContacts::goes_on(const RestingContact& contact, int next, const Eig
   const double size = position.norm() + radius;
   const Vector3 above = foot + size * contact.normal;
   const Vector3 apart = closest_point_of(other.shape, above) - foot;
-  constexpr double kStep = 1e-12;  // a step this high, of the place and the size, is none
   const double step = kStep * size;
   // a ball touches an edge beside it from sqrt(2 r h) away on, h the step
   const double reach = step + std::sqrt(2.0 * radius * step);
@@ -149,8 +154,20 @@ bool LastingContacts::goes_on(const RestingContact& contact, int next, const Eig
 }
 
 bool LastingContacts::slides_onto(PairId id, const Course& course, const Eigen::VectorXd& q) const {
-  return ranges::any_of(course.contacts(), [&](const RestingContact& contact) {
+  const auto rests = [&](const RestingContact& contact) {
     return contact.body == id.body && goes_on(contact, id.obstacle, q);
+  };
+  if (ranges::any_of(course.contacts(), rests)) return true;
+  // without a force it slides along a face and does not rest there
+  const std::optional<Vector3> normal = plane_normal(obstacle(id.obstacle).shape);
+  if (!normal || !encounters_.pair(id).contact.memory.is_in_plane) return false;
+  const int offset = body(id.body).offset;
+  const Vector3 place = q.segment<3>(offset);
+  return ranges::any_of(encounters_.pairs(id.body), [&](const Pair& pair) {
+    const World::Obstacle& left = obstacle(pair.id.obstacle);
+    if (pair.id == id || left.on_hit != OnHit::bounce || !is_flat_at(left.shape, place, *normal)) return false;
+    return (closest_point_of(left.shape, place) - place).norm() <= kStep * place.norm() &&
+           goes_on({id.body, pair.id.obstacle, offset, *normal, place, *normal}, id.obstacle, q);
   });
 }
 

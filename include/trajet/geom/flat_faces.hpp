@@ -16,6 +16,9 @@ bool is_thin(const Shape& shape);
 /// of a solid.
 bool looks_down(const Shape& shape, const Vector3& point, const Vector3& normal);
 
+/// The normal of the plane in which a disk, a rectangle or a triangle lies; other shapes lie in none.
+std::optional<Vector3> plane_normal(const Shape& shape);
+
 /// Whether a body can rest on a shape at a point of its surface where its normal is `normal`: on a flat face; not on a
 /// curved surface, an edge, a corner.
 bool is_flat_at(const Shape& shape, const Vector3& point, const Vector3& normal);

@@ -32,6 +32,15 @@ Program program_of(ProgramBuilder& builder, const ProgramNumber& number) {
 
 constexpr int kVelocity = 3;  // behind the position
 
+/// What is left of a unit vector depends on others if it is less: far above rounding, as of two faces of one plane.
+constexpr double kDependent = 1e-9;
+
+/// What a vector has outside the space of orthonormal ones.
+Vector3 part_outside(const std::vector<Vector3>& orthonormal, Vector3 vector) {
+  for (const Vector3& direction : orthonormal) vector -= vector.dot(direction) * direction;
+  return vector;
+}
+
 }  // namespace
 
 Support support(const std::vector<Vector3>& normals) {
@@ -40,9 +49,7 @@ Support support(const std::vector<Vector3>& normals) {
   Eigen::Matrix3Xd n(3, static_cast<Eigen::Index>(normals.size()));
   for (std::size_t i = 0; i < normals.size(); ++i) {
     n.col(static_cast<Eigen::Index>(i)) = normals[i];
-    Vector3 rest = normals[i];
-    for (const Vector3& direction : support.blocked) rest -= rest.dot(direction) * direction;
-    constexpr double kDependent = 1e-9;  // far above rounding: two faces of one plane
+    const Vector3 rest = part_outside(support.blocked, normals[i]);
     if (rest.norm() > kDependent) support.blocked.push_back(rest.normalized());
   }
   const Eigen::MatrixXd inverse = n.completeOrthogonalDecomposition().pseudoInverse();
@@ -64,7 +71,8 @@ Program hold(const Program& law, int offset, const Vector3& direction) {
   return builder.build();
 }
 
-ReleaseConditions release_conditions(const Program& law, const Shape& shape, const RestingContact& contact) {
+ReleaseConditions release_conditions(const Program& law, const Shape& shape, const RestingContact& contact,
+                                     const std::vector<Vector3>& blocked) {
   ReleaseConditions conditions;
   ProgramBuilder pull(law);
   conditions.pull = program_of(pull, along(contact.release, outputs(pull, contact.offset + kVelocity)));
@@ -72,6 +80,7 @@ ReleaseConditions release_conditions(const Program& law, const Shape& shape, con
   const int position = 1 + contact.offset;  // behind t
   const FaceOutline outline = face_outline(shape, contact.point, contact.normal);
   for (const FaceEdge& edge : outline.edges) {
+    if (part_outside(blocked, edge.direction).norm() <= kDependent) continue;
     ProgramBuilder past(law.input_count);
     conditions.past_edges.push_back(
         program_of(past, along(edge.direction, inputs(past, position)) - ProgramNumber(edge.limit)));

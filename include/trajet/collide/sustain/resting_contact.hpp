@@ -35,8 +35,10 @@ Program hold(const Program& law, int offset, const Vector3& direction);
 /// Programs of t and the group's state that become positive when a contact ends.
 struct ReleaseConditions {
   Program pull;                     ///< release . a, a the acceleration that the law gives the body, m/s^2
-  std::vector<Program> past_edges;  ///< how far the body is past each edge of the face
+  std::vector<Program> past_edges;  ///< how far the body is past each edge of the face to which it may come
 };
-ReleaseConditions release_conditions(const Program& law, const Shape& shape, const RestingContact& contact);
+/// `blocked`: by all contacts of the body, as in Support. Where they hold it along an edge, it does not come past it.
+ReleaseConditions release_conditions(const Program& law, const Shape& shape, const RestingContact& contact,
+                                     const std::vector<Vector3>& blocked);
 
 }  // namespace trajet
