@@ -42,9 +42,9 @@ void LastingContacts::begin(Instant& instant, PairId id, const Impact& impact, d
 void LastingContacts::release_by_speed(Instant& instant, int moved) {
   const int offset = body(moved).offset;
   const double pull = instant.free_acceleration(offset).norm();
-  // of the products of speeds and normals by which the velocity came about
-  const double rounding = 16.0 * kUnitRoundoff * (instant.q.segment<3>(offset + 3).norm() +
-                                                  instant.before().segment<3>(offset + 3).norm());
+  // of the products of speeds and normals by which the velocity came about, one impact after the other
+  const double rounding =
+      64.0 * kUnitRoundoff * (instant.q.segment<3>(offset + 3).norm() + instant.before().segment<3>(offset + 3).norm());
   for (std::size_t i = 0; i < instant.contacts.size();) {
     const RestingContact contact = instant.contacts[i];
     const double speed = instant.q.segment<3>(offset + 3).dot(contact.normal);

@@ -57,14 +57,23 @@ class Room {
     const int axis = side / 2;
     const Vector3 center = sign * R_WB_.col(axis);
     const Vector3 up = R_WB_.col((axis + 1) % 3);
-    const auto add = [&](const std::string& lines) {
-      scene += "[[obstacle]]\nname = \"w" + std::to_string(side) +
+    const auto add = [&](const std::string& lines, const std::string& half = {}) {
+      scene += "[[obstacle]]\nname = \"w" + std::to_string(side) + half +
                "\"\non_hit = \"bounce\"\nrestitution = " + number(restitution_) + "\nshape = \"" + lines;
     };
     if (walls == "plane") add("plane\"\npoint = " + vector_text(center) + "\nnormal = " + vector_text(-center) + "\n");
     if (walls == "rectangle")
       add("rectangle\"\ncenter = " + vector_text(center) + "\nnormal = " + vector_text(-center) +
           "\nup = " + vector_text(up) + "\nsize = [2, 2]\n");
+    if (walls == "triangle") {
+      const Vector3 side_way = up.cross(center);
+      const std::vector<Vector3> corners{center + up + side_way, center + up - side_way, center - up - side_way,
+                                         center - up + side_way};
+      for (const std::size_t first : {std::size_t{0}, std::size_t{2}})
+        add("triangle\"\npoints = [" + vector_text(corners[first]) + ", " + vector_text(corners[first + 1]) + ", " +
+                vector_text(corners[(first + 2) % 4]) + "]\n",
+            first == 0 ? "a" : "b");
+    }
   }
 
   std::mt19937 random_;
@@ -109,6 +118,7 @@ void check_rooms(const std::string& walls, bool has_ball) {
 
 TEST(ClosedRooms, KeepAPointBetweenPlanes) { check_rooms("plane", false); }
 TEST(ClosedRooms, KeepAPointBetweenRectangles) { check_rooms("rectangle", false); }
+TEST(ClosedRooms, KeepAPointBetweenTriangles) { check_rooms("triangle", false); }
 TEST(ClosedRooms, KeepABallBetweenPlanes) { check_rooms("plane", true); }
 TEST(ClosedRooms, KeepABallBetweenRectangles) { check_rooms("rectangle", true); }
 
