@@ -157,6 +157,16 @@ TEST(RunFailure, ToldApartAreInfinityInFiniteTimeAndAPole) {
   }
 }
 
+TEST(RunFailure, StepsThatComeToNothingNameTheFormula) {
+  // nothing pulls up to t = 2: near the start of a run no step is too small
+  const std::string demanding = failure_of(
+      "[time]\nstart = 1\nend = 3\n[method]\nname = \"dopri5\"\nrtol = 1e-100\natol = 0\n[[body]]\nname = \"b\"\n"
+      "position = [1, 2, 3]\nvelocity = [1, 2, 3]\nacceleration = \"where(t < 2, 0, -2)*r\"\n");
+  EXPECT_NE(demanding.find("the step became too small: the rate of the "), std::string::npos) << demanding;
+  EXPECT_NE(demanding.find("acceleration of body 'b' (test.toml:12:17: where(t < 2, 0, -2)*r)"), std::string::npos)
+      << demanding;
+}
+
 TEST(RunFailure, ABlowUpJustAtTheEndIsTold) {
   // dv/dt = v^2 from 1: infinite at t = 1, in a scene of the state and in one of a body
   for (const char* method : {"taylor", "taylor-extended", "dopri5", "dop853"}) {
