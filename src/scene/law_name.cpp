@@ -4,6 +4,13 @@
 
 namespace trajet {
 
+std::string place_text(const SourceLocation& where) {
+  std::string place = where.file.str();
+  if (where.line > 0)
+    place += (place.empty() ? "" : ":") + std::to_string(where.line) + ":" + std::to_string(where.column);
+  return place;
+}
+
 std::string name_of(const World& world, int group, const World::LawFormula& formula) {
   const std::string key(formula.key);
   if (formula.body >= 0) return key + " of body '" + world.bodies[static_cast<std::size_t>(formula.body)].name + "'";
@@ -16,10 +23,7 @@ std::string name_with_place(const World& world, int group, const World::LawFormu
   constexpr std::size_t kLongest = 80;  // what is longer is seen at its place
   std::string text = formula.text.text();
   if (text.size() > kLongest) text = text.substr(0, kLongest) + " …";
-  const SourceLocation& where = formula.text.where();
-  std::string place = where.file.str();
-  if (where.line > 0)
-    place += (place.empty() ? "" : ":") + std::to_string(where.line) + ":" + std::to_string(where.column);
+  std::string place = place_text(formula.text.where());
   if (!place.empty()) place += ": ";
   return name_of(world, group, formula) + " (" + place + text + ")";
 }

@@ -10,6 +10,7 @@
 #include "trajet/collide/sustain/rest.hpp"
 #include "trajet/geom/flat_faces.hpp"
 #include "trajet/law/evaluate.hpp"
+#include "trajet/scene/law_name.hpp"
 #include "trajet/text/shortest_text.hpp"
 
 namespace trajet {
@@ -29,12 +30,10 @@ double mass_of(const World::Body& body, double t, const Eigen::VectorXd& q) {
 
 /// Why the restitution of an obstacle does not tell what becomes of an impact.
 std::string describe_restitution(const World::Obstacle& obstacle, double restitution, double speed) {
-  const SourceLocation& where = obstacle.restitution_where;
-  const std::string place = where.line > 0 ? " (" + where.file.str() + ":" + std::to_string(where.line) + ":" +
-                                                 std::to_string(where.column) + ")"
-                                           : "";
+  const std::string place = place_text(obstacle.restitution_where);
   return "restitution of obstacle '" + obstacle.name + "' is " + shortest_text(restitution) +
-         " at a speed of approach of " + shortest_text(speed) + " m/s, not within 0 and 1" + place;
+         " at a speed of approach of " + shortest_text(speed) + " m/s, not within 0 and 1" +
+         (place.empty() ? "" : " (" + place + ")");
 }
 
 }  // namespace

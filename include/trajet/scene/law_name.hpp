@@ -6,6 +6,9 @@
 
 namespace trajet {
 
+/// A place as sentences have it: "scene.toml:8:17"; empty where it is not known.
+std::string place_text(const SourceLocation& where);
+
 /// What people call a formula of a group: "acceleration of body 'ball'".
 std::string name_of(const World& world, int group, const World::LawFormula& formula);
 
