@@ -17,8 +17,8 @@ using test::number;
 using test::run_text;
 
 bool warns_of_clock(double start, double duration) {
-  const RunResult result =
-      run_text("[time]\nstart = " + number(start) + "\nend = " + number(start + duration) + "\n[[body]]\nname = \"b\"\n");
+  const RunResult result = run_text("[time]\nstart = " + number(start) + "\nend = " + number(start + duration) +
+                                    "\n[[body]]\nname = \"b\"\n");
   for (const std::string& warning : result.warnings)
     if (warning.find("s apart") != std::string::npos) return true;
   return false;
@@ -34,8 +34,8 @@ TEST(Clock, AStartWithTooFewDigitsForTheReportsIsWarnedOf) {
   EXPECT_TRUE(warns_of_clock(-1.7e9, 10.0));
 }
 
-/// A ball under a pulse and a force of t, between a floor and what events make of it. Its times are multiples of 1/64 s,
-/// so that they are numbers on every clock here.
+/// A ball under a pulse and a force of t, between a floor and what events make of it. Its times are multiples of 1/64
+/// s, so that they are numbers on every clock here.
 class Flight {
  public:
   explicit Flight(unsigned seed) : random_(seed) {
@@ -53,10 +53,10 @@ class Flight {
     const std::string t0 = number(start);
     const auto at = [&](double elapsed) { return "(" + t0 + " + " + number(elapsed) + ")"; };
     return "[time]\nstart = " + t0 + "\nend = " + number(start + 4.0) + "\n[method]\nname = \"" + method_ + "\"\n" +
-           (method_ == "rk4" ? "step = 0.0078125\n" : "") +
-           "[[body]]\nname = \"ball\"\nposition = [0, 0, " + number(height_) +
-           "]\nvelocity = [1, 0, 0]\nacceleration = \"[" + number(push_) + "*sin(" + number(frequency_) + "*(t - " + t0 +
-           ")), where(t >= " + at(begin_) + " and t < " + at(end_) + ", 50, 0), -9.81]\"\n" +
+           (method_ == "rk4" ? "step = 0.0078125\n" : "") + "[[body]]\nname = \"ball\"\nposition = [0, 0, " +
+           number(height_) + "]\nvelocity = [1, 0, 0]\nacceleration = \"[" + number(push_) + "*sin(" +
+           number(frequency_) + "*(t - " + t0 + ")), where(t >= " + at(begin_) + " and t < " + at(end_) +
+           ", 50, 0), -9.81]\"\n" +
            "[[obstacle]]\nname = \"floor\"\nshape = \"plane\"\npoint = [0, 0, 0]\nnormal = [0, 0, 1]\non_hit = "
            "\"bounce\"\nrestitution = " +
            number(restitution_) + "\n[[event]]\nname = \"kick\"\nwhen = \"t - " + at(kick_) +

@@ -8,6 +8,7 @@
 #include <optional>
 #include <random>
 
+#include "event_traps/tolerated_methods.hpp"
 #include "scene_run.hpp"
 #include "trajet/law/lookup_table.hpp"
 
@@ -16,7 +17,7 @@ namespace {
 
 using test::number;
 using test::run_text;
-using test::Way;
+using test::ToleratedWay;
 using Real = long double;
 
 /// The motion x'' = c - k x from a state, in closed form.
@@ -106,41 +107,22 @@ State exact_motion(const Layered& law, Real x, Real v, Real end) {
   }
 }
 
-/// Ways, and what of the whole motion they may be off by.
-struct Method {
-  Way way;
-  double tolerance;
-  bool is_coarse = false;  // of the first order: it takes the speed in a thin layer for constant
-};
-
-std::vector<Method> methods_for(double end) {
-  const auto controlled = [](const std::string& name, double rtol, double tolerance) {
-    return Method{test::controlled(name, rtol), tolerance};
+std::vector<ToleratedWay> methods_for(double end) {
+  std::vector<ToleratedWay> all = test::controlled_ways();
+  const auto add = [&](const std::string& name, double tolerance) {
+    all.push_back({test::fixed(name, end / 200.0), tolerance});
   };
-  const auto fixed = [&](const std::string& name, double tolerance) {
-    return Method{test::fixed(name, end / 200.0), tolerance};
-  };
-  Method euler{test::fixed("euler", end / 20000.0), 5e-3, true};
-  return {controlled("taylor", 1e-12, 1e-9),
-          controlled("taylor-extended", 1e-12, 1e-9),
-          controlled("dopri5", 1e-10, 1e-7),
-          controlled("dop853", 1e-11, 1e-7),
-          controlled("rodas5p", 1e-9, 1e-6),
-          controlled("adams", 1e-10, 1e-5),
-          controlled("bdf", 1e-9, 1e-4),
-          controlled("bs32", 1e-8, 1e-4),
-          controlled("rosenbrock23", 1e-7, 1e-3),
-          controlled("trapezoid", 1e-7, 1e-3),
-          controlled("tr-bdf2", 1e-7, 1e-3),
-          fixed("rk4", 1e-5),
-          fixed("rk4-3/8", 1e-5),
-          fixed("gauss6", 1e-7),
-          fixed("series", 1e-5),
-          fixed("midpoint", 1e-3),
-          fixed("heun", 1e-3),
-          fixed("velocity-verlet", 1e-3),
-          fixed("rk4-doubling", 1e-5),
-          euler};
+  add("rk4", 1e-5);
+  add("rk4-3/8", 1e-5);
+  add("gauss6", 1e-7);
+  add("series", 1e-5);
+  add("midpoint", 1e-3);
+  add("heun", 1e-3);
+  add("velocity-verlet", 1e-3);
+  add("rk4-doubling", 1e-5);
+  // it takes the speed in a thin layer for constant
+  all.push_back({test::fixed("euler", end / 20000.0), 5e-3, true});
+  return all;
 }
 
 /// Ways to write that x lies in the layer.
@@ -165,8 +147,8 @@ TEST(Layers, RandomThinLayersAreFelt) {
   int felt = 0, turned = 0;
   for (int i = 0; felt < 1500; ++i) {
     const double end = std::pow(10.0, 2.0 * uniform(random) - 1.0);
-    const std::vector<Method> methods = methods_for(end);
-    const Method& method = methods[static_cast<std::size_t>(felt) % methods.size()];
+    const std::vector<ToleratedWay> methods = methods_for(end);
+    const ToleratedWay& method = methods[static_cast<std::size_t>(felt) % methods.size()];
     // about so fast that it goes some metres
     const double v0 = (1.0 + uniform(random)) / end;
     const double a = 0.2 + 0.6 * uniform(random);
@@ -197,7 +179,7 @@ TEST(Layers, RandomThinLayersAreFelt) {
 }
 
 TEST(Layers, BackwardInTimeToo) {
-  for (const Method& method : methods_for(2.0)) {
+  for (const ToleratedWay& method : methods_for(2.0)) {
     if (method.is_coarse) continue;
     const RunResult result = run_text("[time]\nstart = 2\nend = 0\n[method]\n" + method.way.lines +
                                       "[[body]]\nname = \"p\"\nposition = [2, 0, 0]\nvelocity = [1, 0, 0]\n"
@@ -223,7 +205,7 @@ double integral(const LookupTable& table) {
 TEST(Layers, AThinPeakOfATableIsFelt) {
   const std::vector<double> x{-10, 1, 1.0001, 1.0002, 1.0003, 10}, force{0, 0, 800, 3000, 0, 0};
   const auto peak = std::make_shared<const LookupTable>(x, force);
-  for (const Method& method : methods_for(4.0)) {
+  for (const ToleratedWay& method : methods_for(4.0)) {
     if (method.is_coarse) continue;
     Scene scene = parse_scene("[time]\nend = 4\n[method]\n" + method.way.lines +
                                   "[[body]]\nname = \"p\"\nvelocity = [1, 0, 0]\nacceleration = [0, 0, 0]\n",
@@ -247,7 +229,7 @@ TEST(Layers, EachStepOfAFloorIsFelt) {
     v = speed;
     x += 1.0;
   }
-  for (const Method& method : methods_for(t)) {
+  for (const ToleratedWay& method : methods_for(t)) {
     if (method.is_coarse) continue;
     const RunResult result = run_text("[time]\nend = " + number(t) + "\n[method]\n" + method.way.lines +
                                       "[[body]]\nname = \"p\"\nvelocity = [0.5, 0, 0]\n"
@@ -259,7 +241,7 @@ TEST(Layers, EachStepOfAFloorIsFelt) {
 
 /// Beyond the border the law is not finite: no method looks there for long.
 TEST(Layers, ALawThatIsGuardedFromWhatItCannotBe) {
-  for (const Method& method : methods_for(3.0)) {
+  for (const ToleratedWay& method : methods_for(3.0)) {
     if (method.is_coarse) continue;
     const RunResult result = run_text("[time]\nend = 3\n[method]\n" + method.way.lines +
                                       "[[body]]\nname = \"p\"\nvelocity = [1, 0, 0]\n"
