@@ -56,8 +56,8 @@ void Course::use_contacts() {
     held_system_ = std::make_unique<ProgramSystem>(law);
     for (std::size_t i = 0; i < contacts_.size(); ++i) {
       const Shape& shape = world_.obstacles[static_cast<std::size_t>(contacts_[i].obstacle)].shape;
-      const ReleaseConditions conditions = release_conditions(group().law, shape, contacts_[i],
-                                                              support_of(contacts_, contacts_[i].offset).blocked);
+      const ReleaseConditions conditions =
+          release_conditions(group().law, shape, contacts_[i], support_of(contacts_, contacts_[i].offset).blocked);
       const auto watch = [&](Crossing::Kind kind, const Program& condition) {
         watches_.push_back({kind, static_cast<int>(i), EventWatch(condition, CrossingDirection::rising)});
       };

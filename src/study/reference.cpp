@@ -30,8 +30,7 @@ Quaternion evaluate(const World::ClosedRotation::Orientation& closed_form, Evalu
 
 }  // namespace
 
-ClosedFormReference::ClosedFormReference(const World& world)
-    : epoch_(world.epoch), closed_forms_(world.exact) {
+ClosedFormReference::ClosedFormReference(const World& world) : epoch_(world.epoch), closed_forms_(world.exact) {
   for (const World::Group& group : world.groups) sizes_.push_back(group.start.size());
   for (const World::ClosedForm& closed_form : closed_forms_) evaluators_.emplace_back(closed_form.value);
   for (const World::ClosedRotation& closed_form : world.exact_rotations) {
@@ -69,7 +68,8 @@ void ClosedFormReference::state(int group, double t, Eigen::VectorXd& q) {
     if (closed_form.group != group) continue;
     const auto size = static_cast<Eigen::Index>(closed_form.value.outputs.size());
     evaluators_[i](t, nullptr, q.data() + closed_form.offset);
-    if (!q.segment(closed_form.offset, size).allFinite()) throw not_finite(closed_form.name, epoch_ + t, closed_form.where);
+    if (!q.segment(closed_form.offset, size).allFinite())
+      throw not_finite(closed_form.name, epoch_ + t, closed_form.where);
   }
   for (Rotation& rotation : rotations_)
     if (rotation.group == group) rotation.write(t, epoch_, q);

@@ -60,12 +60,13 @@ struct ComparisonRow {
   std::optional<double> rtol;  ///< error-controlled methods
   std::optional<double> atol;
   RunStatus status = RunStatus::failed;
-  std::string failure;          ///< why there is no result: the method does not suit the law, or the numbers failed
-  double elapsed = 0.0;         ///< s since the start; where the run ended
-  double compared_until = 0.0;  ///< s since the start; where the comparison ended: there, or where the reference ends to hold
-  Deviation at_end;             ///< at `compared_until`
-  Deviation at_samples;         ///< maximum over the scene's samples
-  Deviation at_nodes;           ///< maximum over the ends of the method's own steps
+  std::string failure;   ///< why there is no result: the method does not suit the law, or the numbers failed
+  double elapsed = 0.0;  ///< s since the start; where the run ended
+  double compared_until =
+      0.0;               ///< s since the start; where the comparison ended: there, or where the reference ends to hold
+  Deviation at_end;      ///< at `compared_until`
+  Deviation at_samples;  ///< maximum over the scene's samples
+  Deviation at_nodes;    ///< maximum over the ends of the method's own steps
   RotationDeviation rotation_at_end;
   RotationDeviation rotation_at_samples;           ///< the worst over the scene's samples
   std::vector<RotationSample> rotation_history{};  ///< at samples, at most some 500 of them

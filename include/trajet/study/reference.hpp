@@ -56,7 +56,7 @@ class ClosedFormReference : public Reference {
 
   double epoch_;  // s, of the clock in messages
   std::vector<World::ClosedForm> closed_forms_;
-  std::vector<Eigen::Index> sizes_;                    // of the groups' states
+  std::vector<Eigen::Index> sizes_;            // of the groups' states
   std::vector<Evaluator<double>> evaluators_;  // one for each closed form
   std::vector<Rotation> rotations_;
 };
