@@ -248,7 +248,11 @@ void write_gltf(const MotionRecord& motion, const RunResult& result, double fps,
   for (const World::Obstacle& obstacle : motion.world().obstacles) {
     const LinearColor color = obstacle.color ? linear(*obstacle.color) : kObstacleColor;
     const int mesh = builder.add_mesh(obstacle.name, detail::obstacle_mesh(obstacle.shape, extent), color);
-    builder.place(builder.add_node(obstacle.name, mesh, root), detail::obstacle_pose(obstacle.shape, extent));
+    const int node = builder.add_node(obstacle.name, mesh, root);
+    const detail::Pose start = detail::obstacle_pose(obstacle.shape, extent);
+    builder.place(node, start);
+    if (obstacle.drive && result.elapsed != 0.0)
+      builder.add_animation(node, detail::animation_keys(result, obstacle, start, fps), obstacle.drive->turns);
   }
   detail::write_with_records(std::move(builder).write(result.title), kRecordsMark, result, write);
 }

@@ -6,10 +6,13 @@
 #include <numbers>
 #include <optional>
 #include <stdexcept>
+#include <string>
+#include <utility>
 
 #include "trajet/error.hpp"
 #include "trajet/io/gltf.hpp"
 #include "trajet/portable.hpp"
+#include "trajet/scene/driven_frame.hpp"
 #include "trajet/sim/state_at.hpp"
 
 namespace trajet::detail {
@@ -114,14 +117,44 @@ std::vector<Moment> moments(const RunResult& result, std::span<const double> jum
   return kept;
 }
 
-class KeyMaker {
+/// The motion of a driven obstacle that stands so at the start.
+class ObstacleMotion {
  public:
-  KeyMaker(const BodyMotion& motion, const World::Body& body, std::size_t count) : motion_(motion), body_(body) {
-    keys_.times.reserve(count);
-    keys_.positions.reserve(count);
-    if (body.rotation) keys_.rotations.reserve(count);
+  ObstacleMotion(const World::Drive& drive, const Pose& start) : frame_(drive), start_(start) {}
+
+  Pose before(double t) { return behind(t); }
+  Pose behind(double t) {
+    const FrameMotion frame = frame_.at(t);
+    return {frame.from_start(start_.position), Quaternion(frame.R) * start_.q_WB};
+  }
+  double largest_spin(double from, double to) {
+    double largest = 0.0;
+    constexpr int kParts = 8;
+    for (int i = 0; i <= kParts; ++i) largest = std::max(largest, frame_.at(from + (to - from) * i / kParts).w.norm());
+    return largest;
   }
 
+ private:
+  DrivenFrame frame_;
+  Pose start_;
+};
+
+/// `Motion`: that of a body or an obstacle.
+template <class Motion>
+class KeyMaker {
+ public:
+  /// `name`: whose keys they are, in messages.
+  KeyMaker(Motion& motion, std::string name, bool turns) : motion_(motion), name_(std::move(name)), turns_(turns) {}
+
+  AnimationKeys make(const std::vector<Moment>& moments) {
+    keys_.times.reserve(moments.size());
+    keys_.positions.reserve(moments.size());
+    if (turns_) keys_.rotations.reserve(moments.size());
+    for (const Moment& moment : moments) add(moment);
+    return std::move(keys_);
+  }
+
+ private:
   /// Adds the key of a moment, and what the way from the last one to it needs.
   void add(const Moment& moment) {
     if (last_) fill(*last_, moment);
@@ -129,9 +162,6 @@ class KeyMaker {
     last_ = moment;
   }
 
-  AnimationKeys keys() && { return std::move(keys_); }
-
- private:
   /// The keys between two moments.
   void fill(const Moment& from, const Moment& to) {
     if (motion_.largest_spin(from.t, to.t) * std::abs(to.t - from.t) <= kMostTurn) return;
@@ -145,15 +175,14 @@ class KeyMaker {
   }
 
   [[noreturn]] void fail(const std::string& what) const {
-    throw FileError("body '" + body_.name + "' turns too fast for an animation: its keys, a quarter of a turn apart, " +
-                    what);
+    throw FileError(name_ + " turns too fast for an animation: its keys, a quarter of a turn apart, " + what);
   }
 
   void add_key(const Moment& moment) {
     const Pose pose = moment.is_before ? motion_.before(moment.t) : motion_.behind(moment.t);
     keys_.times.emplace_back(moment.time);
     keys_.positions.push_back(pose.position.cast<float>());
-    if (!body_.rotation) {
+    if (!turns_) {
       if (keys_.rotations.empty()) keys_.rotations.push_back(pose.q_WB.coeffs().cast<float>());
       return;
     }
@@ -162,8 +191,9 @@ class KeyMaker {
     keys_.rotations.push_back(rotation);
   }
 
-  const BodyMotion& motion_;
-  const World::Body& body_;
+  Motion& motion_;
+  std::string name_;
+  bool turns_;
   std::optional<Moment> last_;
   AnimationKeys keys_;
 };
@@ -175,10 +205,12 @@ AnimationKeys animation_keys(const MotionRecord& motion, const RunResult& result
   const auto& pieces = motion.pieces(body.group);
   if (pieces.empty()) return {};
   const BodyMotion body_motion(motion, body, result.elapsed < 0.0 ? -1.0 : 1.0);
-  const std::vector<Moment> all = moments(result, jumps, fps);
-  KeyMaker maker(body_motion, body, all.size());
-  for (const Moment& moment : all) maker.add(moment);
-  return std::move(maker).keys();
+  return KeyMaker(body_motion, "body '" + body.name + "'", body.rotation.has_value()).make(moments(result, jumps, fps));
+}
+
+AnimationKeys animation_keys(const RunResult& result, const World::Obstacle& obstacle, const Pose& start, double fps) {
+  ObstacleMotion motion(*obstacle.drive, start);
+  return KeyMaker(motion, "obstacle '" + obstacle.name + "'", obstacle.drive->turns).make(moments(result, {}, fps));
 }
 
 }  // namespace trajet::detail

@@ -7,7 +7,7 @@
 
 namespace trajet::detail {
 
-/// Where a body is, and how it stands. World frame.
+/// Where a thing is, and how it stands. World frame.
 struct Pose {
   Vector3 position;
   Quaternion q_WB;
@@ -29,5 +29,7 @@ struct AnimationKeys {
 /// fast that it needs more of them, or keys closer than single precision can tell.
 AnimationKeys animation_keys(const MotionRecord& motion, const RunResult& result, const World::Body& body,
                              std::span<const double> jumps, double fps);
+/// The same of a driven obstacle that is drawn so at the start.
+AnimationKeys animation_keys(const RunResult& result, const World::Obstacle& obstacle, const Pose& start, double fps);
 
 }  // namespace trajet::detail

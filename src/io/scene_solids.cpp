@@ -95,11 +95,11 @@ const std::array<ObstacleKind, 7>& obstacle_kinds() {
       {"rectangle", "center", true, {"normal", "up", "size"}, read_rectangle},
       {"triangle", "", false, {"points"}, read_triangle},
       {"sphere", "center", true, {"radius"}, read_ball},
-      {"box", "center", true, {"size", "orientation"}, read_cuboid},
+      {"box", "center", true, {"size"}, read_cuboid},
       {"mesh",
        "center",
        false,
-       {"file", "scale", "orientation"},
+       {"file", "scale"},
        [](const TableReader& t) { return ShapeDefinition(read_mesh_shape(t)); }},
   }};
   return kinds;
@@ -114,12 +114,13 @@ ObstacleDefinition read_obstacle(const TableReader& table) {
   if (!table.has("shape")) throw InputError(table.where(), table.title() + " lacks the key 'shape'");
   const ObstacleKind& kind = obstacle_kinds()[table.choice("shape", shapes, 0, kPlannedShapes)];
 
-  const Keys common = {"name", "shape", "on_hit", "restitution", "color"};
-  const Keys planned = {"friction", "velocity", "angular_velocity"};
+  const Keys common = {"name", "shape", "on_hit", "restitution", "color", "velocity", "angular_velocity"};
+  const Keys planned = {"friction"};
   const std::string with_shape = table.title() + " of shape " + std::string(kind.name);
   TableReader titled = table.titled(with_shape);
   const bool has_center = !kind.center.empty();
-  titled.check_keys(common + (has_center ? Keys{kind.center} : Keys{}) + kind.keys, planned);
+  const Keys turned = kind.name == "plane" ? Keys{} : Keys{"orientation"};
+  titled.check_keys(common + (has_center ? Keys{kind.center} : Keys{}) + kind.keys + turned, planned);
 
   constexpr std::array<std::string_view, 3> kOnHit{"stop", "bounce", "pass"};
   constexpr std::array<std::string_view, 1> kPlannedOnHit{"stick"};
@@ -129,6 +130,8 @@ ObstacleDefinition read_obstacle(const TableReader& table) {
     obstacle.center = titled.vector(kind.center, kLength);
   obstacle.shape = kind.read(titled);
   if (titled.has("orientation")) obstacle.orientation = read_orientation(titled.subtable("orientation"));
+  if (table.has("velocity")) obstacle.velocity = table.vector("velocity", kSpeed);
+  if (table.has("angular_velocity")) obstacle.angular_velocity = table.vector("angular_velocity", kAngularVelocity);
   obstacle.on_hit =
       std::array{OnHit::stop, OnHit::bounce, OnHit::pass}[table.choice("on_hit", kOnHit, 0, kPlannedOnHit)];
   if (table.has("restitution")) obstacle.restitution = table.scalar("restitution", kDimensionless);

@@ -46,7 +46,7 @@ World::ExtendedNumbers extended_numbers(const Scene& scene, const World& world, 
   for (std::size_t i = 0; i < world.obstacles.size(); ++i) {
     const ObstacleDefinition& definition = scene.obstacles[i];
     const auto* ball = std::get_if<BallShape>(&definition.shape);
-    if (ball == nullptr) continue;
+    if (ball == nullptr || world.obstacles[i].drive) continue;
     const Vector3T<Real> center =
         definition.center ? read.vector(*definition.center) : Vector3T<Real>(Vector3T<Real>::Zero());
     numbers.spheres.emplace(static_cast<int>(i), World::ExtendedNumbers::Sphere{center, read.scalar(ball->radius)});

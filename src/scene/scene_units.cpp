@@ -83,6 +83,8 @@ class UnitCheck {
     for (const ObstacleDefinition& obstacle : scene_.obstacles) {
       std::visit([this](const auto& shape) { check_shape(shape); }, obstacle.shape);
       check(obstacle.center, kLength);
+      check(obstacle.velocity, kSpeed);
+      check(obstacle.angular_velocity, kAngularVelocity);
       check_orientation(obstacle.orientation);
       if (obstacle.restitution) require_dimension(*obstacle.restitution, kDimensionless, at_impact());
     }

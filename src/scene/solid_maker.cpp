@@ -81,12 +81,12 @@ class BodySolid {
 /// Obstacles: the solid, where it stands, and the numbers of both together.
 class FixedSolid {
  public:
-  FixedSolid(const ObstacleDefinition& definition, const ShapeNumbers& numbers)
+  FixedSolid(const ObstacleDefinition& definition, const ShapeNumbers& numbers, const ShapeNumbers& at_start)
       : numbers_(numbers),
-        center_(definition.center ? numbers.vector(*definition.center, name_of_center(definition.shape))
+        center_(definition.center ? at_start.vector(*definition.center, name_of_center(definition.shape))
                                   : Vector3(0, 0, 0)),
         is_moved_(definition.center.has_value()),
-        R_WB_(numbers.rotation(definition.orientation)),
+        R_WB_(at_start.rotation(definition.orientation)),
         is_turned_(!R_WB_.isIdentity(0.0)) {}
 
   World::Obstacle operator()(const PlaneShape& shape) const {
@@ -195,11 +195,12 @@ Solid make_solid(const BodyDefinition& body, const SceneNumbers& numbers) {
   }
 }
 
-World::Obstacle make_obstacle(const ObstacleDefinition& definition, const SceneNumbers& numbers) {
+World::Obstacle make_obstacle(const ObstacleDefinition& definition, const SceneNumbers& numbers,
+                              const SceneNumbers& at_start) {
   const std::string name = "obstacle '" + definition.name + "'";
   try {
-    const ShapeNumbers shape_numbers(numbers, " of " + name);
-    World::Obstacle obstacle = std::visit(FixedSolid(definition, shape_numbers), definition.shape);
+    const ShapeNumbers shape_numbers(numbers, " of " + name), place_numbers(at_start, " of " + name);
+    World::Obstacle obstacle = std::visit(FixedSolid(definition, shape_numbers, place_numbers), definition.shape);
     obstacle.name = definition.name;
     obstacle.where = definition.where;
     obstacle.on_hit = definition.on_hit;

@@ -9,6 +9,7 @@
 #include <unordered_map>
 
 #include "body_maker.hpp"
+#include "drive_maker.hpp"
 #include "extended_numbers.hpp"
 #include "law_formulas.hpp"
 #include "law_symbols.hpp"
@@ -51,8 +52,12 @@ class WorldBuilder {
     set_time();
     set_method(scene_.method, numbers_, world_);
     world_.obstacles.reserve(scene_.obstacles.size());
+    Symbols starting(&parameters_.symbols);
+    starting.set_constant("t", world_.epoch);
+    const SceneNumbers at_start(starting);
     for (const ObstacleDefinition& obstacle : scene_.obstacles) {
-      world_.obstacles.push_back(make_obstacle(obstacle, numbers_));
+      world_.obstacles.push_back(make_obstacle(obstacle, numbers_, at_start));
+      world_.obstacles.back().drive = make_drive(obstacle, parameters_.symbols, at_start, world_.epoch);
       set_restitution(obstacle, parameters_.symbols, numbers_, world_);
       world_.obstacles.back().color = obstacle.color;
     }

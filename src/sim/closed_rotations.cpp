@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "trajet/math/polynomial.hpp"
+#include "trajet/math/shift_rows.hpp"
 
 namespace trajet {
 namespace {
@@ -21,13 +22,6 @@ double duration_of(const Eigen::Ref<const Eigen::MatrixXd>& coefficients) {
     if (term > 0.0) duration = std::min(duration, std::pow(kUnitRoundoff * size / term, 1.0 / k));
   }
   return duration;
-}
-
-/// The coefficients of p(by + tau) from those of p(tau), in place: repeated synthetic division.
-void shift(Eigen::Ref<Eigen::MatrixXd> coefficients, double by) {
-  if (by == 0.0) return;
-  for (Eigen::Index first = 0; first < coefficients.cols(); ++first)
-    for (Eigen::Index k = coefficients.cols() - 2; k >= first; --k) coefficients.col(k) += by * coefficients.col(k + 1);
 }
 
 }  // namespace
@@ -75,7 +69,7 @@ std::deque<Segment<>> ClosedRotations::pieces(const Segment<>& step) {
     auto& coefficients = piece.coefficients();
     coefficients.setZero();
     coefficients.leftCols(step.degree() + 1) = step.coefficients();
-    shift(coefficients.leftCols(step.degree() + 1), t - step.t0());
+    shift_rows(coefficients.leftCols(step.degree() + 1), t - step.t0());
     piece.error_bound() = pieces.size() == 1 ? step.error_bound() : Eigen::VectorXd::Zero(step.dimension());
 
     Eigen::VectorXd q = coefficients.col(0);

@@ -23,6 +23,11 @@ Encounters::Encounters(const World& world) : world_(world), bodies_(world.bodies
   std::vector<Aabb> boxes;
   for (std::size_t i = 0; i < world.obstacles.size(); ++i) {
     const World::Obstacle& obstacle = world.obstacles[i];
+    if (obstacle.drive) {
+      driven_.try_emplace(static_cast<int>(i), obstacle);
+      always_.push_back(static_cast<int>(i));
+      continue;
+    }
     const Aabb box = walks ? bounds(obstacle.solid, obstacle.p_WB, rotation_matrix(obstacle.q_WB)) : unbounded_box();
     (is_bounded(box) ? in_tree_ : always_).push_back(static_cast<int>(i));
     if (is_bounded(box)) boxes.push_back(box);
@@ -45,6 +50,9 @@ ContactResult Encounters::first_contact_until(const Pair& pair, const ContactMem
   ++searches_;
   const World::Body& body = world_.bodies[static_cast<std::size_t>(pair.id.body)];
   const World::Obstacle& obstacle = world_.obstacles[static_cast<std::size_t>(pair.id.obstacle)];
+  if (const auto driven = driven_.find(pair.id.obstacle); driven != driven_.end())
+    return driven->second.first_contact(course.segment(), body.offset, bounding_radius(body.solid), from, to,
+                                        world_.locate, memory);
   const PointPath path(course.segment(), body.offset);
   return first_contact(obstacle.shape, {path, bounding_radius(body.solid), from, to, world_.locate}, memory);
 }
@@ -228,9 +236,32 @@ void Encounters::take(const Instant& instant) {
   for (const auto& [id, memory] : instant.memories) find_or_add(id.body, id.obstacle, instant.time()).memory = memory;
 }
 
-void Encounters::move(int body, const Vector3& from, const Vector3& to) {
+std::optional<FrameMotion> Encounters::frame(int obstacle, double t) {
+  const auto driven = driven_.find(obstacle);
+  if (driven == driven_.end()) return std::nullopt;
+  return driven->second.at(t);
+}
+
+RelativeMotion Encounters::relative_motion(PairId id, double t, const Eigen::VectorXd& q, const Eigen::VectorXd& rate) {
+  const int offset = world_.bodies[static_cast<std::size_t>(id.body)].offset;
+  RelativeMotion motion{rate.segment<3>(offset), rate.segment<3>(offset + 3)};
+  const std::optional<FrameMotion> surface = frame(id.obstacle, t);
+  if (!surface) return motion;
+  // in a frame that turns: a - a_o - w' x r - w x (w x r) - 2 w x v
+  const Vector3 arm = q.segment<3>(offset) - surface->p;
+  const Vector3& w = surface->w;
+  motion.velocity -= surface->velocity_at(q.segment<3>(offset));
+  motion.acceleration -=
+      surface->acceleration + surface->w_rate.cross(arm) + w.cross(w.cross(arm)) + 2.0 * w.cross(motion.velocity);
+  return motion;
+}
+
+void Encounters::move(int body, double t, const Vector3& jump_from, const Vector3& jump_to) {
   for (Pair& pair : around(body).pairs) {
     const Shape& shape = world_.obstacles[static_cast<std::size_t>(pair.id.obstacle)].shape;
+    const std::optional<FrameMotion> driven = frame(pair.id.obstacle, t);
+    const Vector3 from = driven ? driven->to_start(jump_from) : jump_from;
+    const Vector3 to = driven ? driven->to_start(jump_to) : jump_to;
     const Vector3 closest = std::visit([&](const auto& s) { return closest_point(s, from); }, shape);
     const Vector3 closest_behind = std::visit([&](const auto& s) { return closest_point(s, to); }, shape);
     // along a flat face: it is where it was, a contact that is to come still comes

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <map>
 #include <optional>
 #include <vector>
 
 #include "course.hpp"
+#include "driven_obstacle.hpp"
 #include "instant.hpp"
 #include "trajet/collide/detect/contact.hpp"
 #include "trajet/geom/box_tree.hpp"
@@ -20,6 +22,12 @@ struct Pair {
   ContactResult contact{};   ///< the next one behind `known_at`, within what was searched
   ContactMemory ahead{};     ///< what is known at `searched_to`, if there is no contact before
   double searched_to = 0.0;  ///< s
+};
+
+/// How a body's centre moves as an obstacle's surface sees it, in the axes of the world.
+struct RelativeMotion {
+  Vector3 velocity;      ///< m/s
+  Vector3 acceleration;  ///< m/s^2
 };
 
 /// Looks out for the contacts of the bodies of a run with its obstacles: all pairs, what is known of them, and their
@@ -58,8 +66,13 @@ class Encounters {
   bool stay_in_contact(PairId id, const Course& course, double height);
   /// A course has restarted at the instant: takes what is known of its pairs from there on.
   void take(const Instant& instant);
-  /// The body was moved by a jump, m: forgets on which side of what it is, but where the jump keeps the gap.
-  void move(int body, const Vector3& from, const Vector3& to);
+  /// The body was moved by a jump at time t, m: forgets on which side of what it is, but where the jump keeps the gap.
+  void move(int body, double t, const Vector3& from, const Vector3& to);
+
+  /// Where a driven obstacle is at time t; none of a fixed one.
+  std::optional<FrameMotion> frame(int obstacle, double t);
+  /// Of the body whose state has that rate.
+  RelativeMotion relative_motion(PairId id, double t, const Eigen::VectorXd& q, const Eigen::VectorXd& rate);
 
   /// How many pairs were searched so far.
   long searches() const { return searches_; }
@@ -84,8 +97,9 @@ class Encounters {
 
   const World& world_;
   std::vector<Around> bodies_;
-  std::vector<int> always_;   // obstacles that are searched whatever is near
-  std::vector<int> in_tree_;  // the others, in the order of the tree
+  std::map<int, DrivenObstacle> driven_;  // by the index of the obstacle
+  std::vector<int> always_;               // obstacles that are searched whatever is near
+  std::vector<int> in_tree_;              // the others, in the order of the tree
   std::optional<BoxTree> tree_;
   long searches_ = 0;
 };

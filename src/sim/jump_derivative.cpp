@@ -6,6 +6,7 @@
 #include "trajet/geom/distance.hpp"
 #include "trajet/geom/flat_faces.hpp"
 #include "trajet/law/program_jacobian.hpp"
+#include "trajet/rigid/kinematics.hpp"
 
 namespace trajet {
 namespace {
@@ -34,27 +35,46 @@ Matrix3 curvature(const Shape& shape, const Vector3& point, const Vector3& posit
 
 }  // namespace
 
-Eigen::MatrixXd derivative_of_bounce(const World& world, const Pair& pair, const Instant& instant,
-                                     const Eigen::VectorXd& rate) {
+Eigen::MatrixXd derivative_of_bounce(const World& world, const Pair& pair, const std::optional<FrameMotion>& surface,
+                                     const Instant& instant, const Eigen::VectorXd& rate) {
   const World::Body& body = world.bodies[static_cast<std::size_t>(pair.id.body)];
   const World::Obstacle& obstacle = world.obstacles[static_cast<std::size_t>(pair.id.obstacle)];
   const Vector3& n = pair.contact.normal;
-  const Vector3 approach = rate.segment<3>(body.offset);
+  const Vector3 position = instant.before().segment<3>(body.offset);
+  const Vector3 surface_velocity = surface ? surface->velocity_at(position) : Vector3(0, 0, 0);
+  const Vector3 approach = rate.segment<3>(body.offset) - surface_velocity;
   const double speed = approach.dot(n);
   Eigen::MatrixXd derivative = instant.derivative;
   if (!(speed < 0.0)) return derivative;
 
-  // v+ = v - (1 + e(u)) (r' . n) n with u = -r' . n, r' moving as v does
+  // v+ = v - (1 + e(u)) (c . n) n with u = -c . n and c = r' - s, r' moving as v does; s is the surface's velocity
   const double factor = 1.0 + obstacle.restitution.at(-speed);
   const double speed_factor = obstacle.restitution.change_rate(-speed);
-  const Matrix3 N = curvature(obstacle.shape, pair.contact.point, instant.before().segment<3>(body.offset), n,
-                              bounding_radius(body.solid));
+  const double radius = bounding_radius(body.solid);
+  Matrix3 N, S = Matrix3::Zero();   // how normal and surface velocity change from place to place
+  Vector3 moved = Vector3::Zero();  // how v+ changes where the obstacle alone moves on
+  if (surface) {
+    const Matrix3& R = surface->R;
+    N = R *
+        curvature(obstacle.shape, surface->to_start(pair.contact.point), surface->to_start(position), R.transpose() * n,
+                  radius) *
+        R.transpose();
+    S = cross_matrix(surface->w);
+    const Vector3 turned = surface->w.cross(n) - N * surface_velocity;
+    const Vector3 faster =
+        surface->acceleration + surface->w_rate.cross(position - surface->p) - surface->w.cross(surface->v);
+    moved = -(speed_factor * (approach.dot(turned) - n.dot(faster)) * n + factor * speed * turned);
+  } else {
+    N = curvature(obstacle.shape, pair.contact.point, position, n, radius);
+  }
   derivative.block<3, 3>(body.offset + 3, body.offset) =
-      -(speed_factor * n * (approach.transpose() * N) + factor * speed * N);
+      -(speed_factor * n * (approach.transpose() * N - n.transpose() * S) + factor * speed * N);
   derivative.block<3, 3>(body.offset + 3, body.offset + 3) = Matrix3::Identity() - speed_factor * n * n.transpose();
   Eigen::RowVectorXd time = Eigen::RowVectorXd::Zero(rate.size());
   time.segment<3>(body.offset) = -n / speed;
-  derivative += (derivative * rate - instant.rate()) * time;
+  Eigen::VectorXd jump = derivative * rate - instant.rate();
+  jump.segment<3>(body.offset + 3) += moved;
+  derivative += jump * time;
   return derivative;
 }
 

@@ -137,6 +137,7 @@ void LastingContacts::record(const RestingContact& contact, ImpactKind kind, dou
 
 bool LastingContacts::goes_on(const RestingContact& contact, int next, const Eigen::VectorXd& q) const {
   const World::Obstacle& other = obstacle(next);
+  if (other.drive) return false;
   const Vector3 position = q.segment<3>(contact.offset);
   const Vector3 velocity = q.segment<3>(contact.offset + 3);
   const double radius = bounding_radius(body(contact.body).solid);
@@ -160,7 +161,8 @@ bool LastingContacts::slides_onto(PairId id, const Course& course, const Eigen::
   if (ranges::any_of(course.contacts(), rests)) return true;
   // without a force it slides along a face and does not rest there
   const std::optional<Vector3> normal = plane_normal(obstacle(id.obstacle).shape);
-  if (!normal || !encounters_.pair(id).contact.memory.is_in_plane) return false;
+  const bool is_driven = obstacle(id.obstacle).drive.has_value();
+  if (!normal || is_driven || !encounters_.pair(id).contact.memory.is_in_plane) return false;
   const int offset = body(id.body).offset;
   const Vector3 place = q.segment<3>(offset);
   return ranges::any_of(encounters_.pairs(id.body), [&](const Pair& pair) {

@@ -93,9 +93,10 @@ void RunLoop::handle_contact(int index, const Pair& met) {
 bool RunLoop::goes_on_from_contact(int index, const Pair& pair, const Impact& impact) {
   Course& moving = course(index);
   const int offset = body_of(pair).offset;
-  const Eigen::VectorXd rate = moving.rate(impact.elapsed, moving.state(impact.elapsed));
-  const double speed = impact.normal.dot(rate.segment<3>(offset));
-  const double pull = -impact.normal.dot(rate.segment<3>(offset + 3));
+  const Eigen::VectorXd q = moving.state(impact.elapsed);
+  const RelativeMotion motion = encounters_.relative_motion(pair.id, impact.elapsed, q, moving.rate(impact.elapsed, q));
+  const double speed = impact.normal.dot(motion.velocity);
+  const double pull = -impact.normal.dot(motion.acceleration);
   const bool has_left = pull < 0.0 && pair.memory.contact_time == impact.elapsed;
   if (speed <= 0.0 && !has_left) return false;
   double height = 0.0;
@@ -125,8 +126,8 @@ void RunLoop::bounce(int index, Pair pair, Impact impact) {
   Instant instant(moving, t);
   auto velocity = instant.q.segment<3>(body.offset + 3);
   // the velocity of the centre is dr/dt, which a position_rate may set apart from v
-  const Eigen::VectorXd rate_before = instant.rate();
-  const Vector3 approach = rate_before.segment<3>(body.offset);
+  const RelativeMotion motion = encounters_.relative_motion(pair.id, t, instant.before(), instant.rate());
+  const Vector3& approach = motion.velocity;
   const double speed_before = std::max(0.0, -approach.dot(impact.normal));
   const double restitution = obstacle_of(pair).restitution.at(speed_before);
   if (!(restitution >= 0.0 && restitution <= 1.0))
@@ -135,13 +136,15 @@ void RunLoop::bounce(int index, Pair pair, Impact impact) {
   const std::vector<Impact> group = bounce_plastic(world_, encounters_, pair, impact, mass, instant);
   if (group.empty()) {
     velocity += rebound(approach, impact.normal, restitution).impulse_per_mass;
-    if (world_.extended && approach == Vector3(impact.velocity_before)) bounce_extended(world_, pair, instant);
-    instant.derivative = derivative_of_bounce(world_, pair, instant, moving.rate(t, instant.before()));
+    const std::optional<FrameMotion> surface = encounters_.frame(pair.id.obstacle, t);
+    if (world_.extended && !surface && approach == Vector3(impact.velocity_before))
+      bounce_extended(world_, pair, instant);
+    instant.derivative = derivative_of_bounce(world_, pair, surface, instant, moving.rate(t, instant.before()));
     impact.velocity_after = velocity;
     impact.impulse = mass * (impact.velocity_after - impact.velocity_before);
   }
   // else it lies there, or its flight is so low that the Segment does not show it
-  const double pull = -impact.normal.dot(rate_before.segment<3>(body.offset + 3));
+  const double pull = -impact.normal.dot(motion.acceleration);
   const double speed = -approach.dot(impact.normal);
   const double no_time = kUnitRoundoff * world_.duration;
   const double lowest_fall = std::max(pair.contact.memory.tolerance, std::abs(pull) * no_time * no_time);
@@ -170,13 +173,18 @@ bool RunLoop::rest(Instant& instant, const Pair& pair, const Impact& impact, dou
   const World::Body& body = body_of(pair);
   const World::Obstacle& obstacle = obstacle_of(pair);
   const double t = instant.time();
-  const Eigen::VectorXd rate = instant.rate();
-  const double speed = std::max(0.0, impact.normal.dot(rate.segment<3>(body.offset)));
-  const double pull = -impact.normal.dot(rate.segment<3>(body.offset + 3));
+  const RelativeMotion motion = encounters_.relative_motion(pair.id, t, instant.q, instant.rate());
+  const double speed = std::max(0.0, impact.normal.dot(motion.velocity));
+  const double pull = -impact.normal.dot(motion.acceleration);
   const double tolerance = pair.contact.memory.tolerance;
   const bool is_low =
       restitution < 1.0 ? is_hidden || is_below_flight(speed, pull, tolerance) : is_lying(speed, pull, tolerance);
   if (pull <= 0.0 || !is_low) return true;
+  if (obstacle.drive) {
+    fail(t, "body '" + body.name + "' comes to rest on obstacle '" + obstacle.name +
+                "', which moves: trajet cannot follow it there yet");
+    return false;
+  }
   if (!is_flat_at(obstacle.shape, impact.point, impact.normal)) {
     fail(t, "body '" + body.name + "' comes to rest on the curved or sharp part of obstacle '" + obstacle.name +
                 "', where trajet cannot follow it");

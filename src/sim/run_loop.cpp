@@ -260,7 +260,7 @@ void RunLoop::set(int index, int event_index, double time) {
   for (const int body : moving.group().bodies) {
     const int offset = world_.bodies[static_cast<std::size_t>(body)].offset;
     const Vector3 from = instant.before().segment<3>(offset), to = instant.q.segment<3>(offset);
-    if (to != from) encounters_.move(body, from, to);
+    if (to != from) encounters_.move(body, time, from, to);
   }
   advance(index);
 }

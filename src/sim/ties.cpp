@@ -42,12 +42,13 @@ void warn_of_hidden_ties(const World& world, const Encounters& encounters, const
   }
 }
 
-bool settle_other_contacts(const World& world, const Encounters& encounters, const Pair& handled, const Impact& impact,
+bool settle_other_contacts(const World& world, Encounters& encounters, const Pair& handled, const Impact& impact,
                            Instant& instant, Recorder& recorder) {
   bool stops = false;
-  const Vector3 velocity = instant.rate().segment<3>(world.bodies[static_cast<std::size_t>(handled.id.body)].offset);
+  const Eigen::VectorXd rate = instant.rate();
   for (const PairId id : encounters.met_at_once(handled)) {
     const Pair& pair = pair_of(encounters, id);
+    const Vector3 velocity = encounters.relative_motion(id, instant.time(), instant.q, rate).velocity;
     // of the two products of speeds and normals by which the bounce came about
     const double rounding = 16.0 * kUnitRoundoff * (velocity.norm() + impact.velocity_before.norm());
     if (velocity.dot(pair.contact.normal) < -rounding) continue;

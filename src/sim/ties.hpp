@@ -22,7 +22,7 @@ void warn_of_hidden_ties(const World& world, const Encounters& encounters, const
 
 /// Of the contacts at the instant of a bounce those from which the body moves away already: it was there, and does not
 /// bounce again. Adds what is known of their pairs; returns whether one of them stops the run.
-bool settle_other_contacts(const World& world, const Encounters& encounters, const Pair& handled, const Impact& impact,
+bool settle_other_contacts(const World& world, Encounters& encounters, const Pair& handled, const Impact& impact,
                            Instant& instant, Recorder& recorder);
 
 }  // namespace trajet

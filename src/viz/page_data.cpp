@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <functional>
 #include <optional>
 
 #include "base64.hpp"
 #include "trajet/geom/triangle_surface.hpp"
+#include "trajet/scene/driven_frame.hpp"
 
 namespace trajet::detail {
 
@@ -92,12 +94,13 @@ void append(std::vector<double>& numbers, const MotionRecord::Piece& piece, doub
     for (int k = 0; k <= degrees[static_cast<std::size_t>(i)]; ++k) numbers.push_back(segment.coefficients()(i, k));
 }
 
-/// Writes all pieces of a group, one after the other, as base64.
-void write_packed(const std::vector<MotionRecord::Piece>& pieces, double epoch, ScriptText& text) {
+/// Gives all pieces of a group, one after the other, as parts of a text in base64.
+void write_packed(const std::vector<MotionRecord::Piece>& pieces, double epoch,
+                  const std::function<void(const std::string&)>& add) {
   constexpr std::size_t kWhole = 3;  // so many doubles have a whole number of base64's groups of three bytes
   std::vector<double> numbers;
   const auto write = [&](std::size_t count) {
-    text.add(base64({reinterpret_cast<const std::uint8_t*>(numbers.data()), count * sizeof(double)}));
+    add(base64({reinterpret_cast<const std::uint8_t*>(numbers.data()), count * sizeof(double)}));
     numbers.erase(numbers.begin(), numbers.begin() + static_cast<std::ptrdiff_t>(count));
   };
   for (const MotionRecord::Piece& piece : pieces) {
@@ -105,6 +108,25 @@ void write_packed(const std::vector<MotionRecord::Piece>& pieces, double epoch, 
     write(numbers.size() - numbers.size() % kWhole);
   }
   write(numbers.size());
+}
+
+/// How an obstacle moves on the way of a run of that duration (s).
+Json drive_data(const World::Drive& drive, double duration, double epoch) {
+  DrivenFrame frame(drive);
+  std::vector<MotionRecord::Piece> pieces;
+  for (double t = 0.0; t < duration;) {
+    const Segment<7> piece = frame.piece(t, duration);
+    if (!(piece.t1() > t)) break;
+    MotionRecord::Piece& kept = pieces.emplace_back();
+    kept.segment.resize(piece.dimension(), piece.degree());
+    kept.segment.coefficients() = piece.coefficients();
+    kept.segment.set_interval(piece.t0(), piece.t1());
+    kept.from = t;
+    kept.to = t = piece.t1();
+  }
+  std::string packed;
+  write_packed(pieces, epoch, [&](const std::string& part) { packed += part; });
+  return {{"pivot", array(drive.pivot)}, {"pieces", packed}};
 }
 
 /// What a program's output is worth where its formula needs neither time nor state.
@@ -209,6 +231,7 @@ void write_page_data(const PageRun& run, ScriptText& text) {
     Json shape = std::visit([](const auto& each) { return object(each); }, obstacle.shape);
     obstacles.push_back({{"name", obstacle.name}, {"shape", std::move(shape)}});
     if (obstacle.color) obstacles.back()["color"] = color_text(*obstacle.color);
+    if (obstacle.drive) obstacles.back()["drive"] = drive_data(*obstacle.drive, world.duration, world.epoch);
   }
   const auto add_member = [&](std::string_view key, const Json& value) {
     text.add(",\"" + std::string(key) + "\":");
@@ -223,7 +246,7 @@ void write_page_data(const PageRun& run, ScriptText& text) {
   for (std::size_t g = 0; g < world.groups.size(); ++g) {
     text.add((g == 0 ? R"({"dimension":)" : R"(,{"dimension":)") + std::to_string(world.groups[g].start.size()));
     text.add(R"(,"pieces":")");
-    write_packed(run.motion.pieces(static_cast<int>(g)), world.epoch, text);
+    write_packed(run.motion.pieces(static_cast<int>(g)), world.epoch, [&](const std::string& part) { text.add(part); });
     text.add(R"("})");
   }
   text.add("]}");

@@ -111,9 +111,21 @@ export type ObstacleShape =
 
 export interface ObstacleData {
   name: string;
+  /** Where it is at the start. */
   shape: ObstacleShape;
   /** "#rrggbb", where the scene chooses it. */
   color?: string;
+  /** Where it moves as the scene says. */
+  drive?: DriveData;
+}
+
+/**
+ * `pivot`: a place of the obstacle at the start. `pieces`, as those of a group: where that place is, and the unit
+ * quaternion (w, x, y, z) by which the obstacle has turned about it.
+ */
+export interface DriveData {
+  pivot: Vector;
+  pieces: string;
 }
 
 export interface RunData {

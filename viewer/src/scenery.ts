@@ -1,5 +1,6 @@
 import * as THREE from "three";
 import type { ObstacleData, ObstacleShape, Vector } from "./data";
+import { Drive } from "./drive";
 import { roundSpacing } from "./format";
 import type { LabelSpec } from "./labels";
 import { type Grid, gridLabels, heightScale } from "./scales";
@@ -14,7 +15,15 @@ export interface Ground {
   isSolid: boolean;
 }
 
-/** What does not move: obstacles, and a grid that gives the scale. */
+/** What an obstacle's motion carries along. */
+interface Driven {
+  drive: Drive;
+  drawn: THREE.Object3D;
+  /** Its text, and where that is at the start, m. */
+  label?: { spec: LabelSpec; at: THREE.Vector3 };
+}
+
+/** Obstacles, and a grid that gives the scale. */
 export class Scenery {
   readonly group = new THREE.Group();
   readonly labels: LabelSpec[] = [];
@@ -31,6 +40,7 @@ export class Scenery {
   private readonly ground: THREE.MeshBasicMaterial;
   private readonly edges: THREE.LineBasicMaterial;
   private readonly lines: THREE.LineBasicMaterial;
+  private readonly driven: Driven[] = [];
 
   constructor(
     private readonly frame: ViewFrame,
@@ -55,9 +65,13 @@ export class Scenery {
 
     for (const obstacle of obstacles) {
       const { shape } = obstacle;
-      if (shape.kind === "plane")
-        this.grounds.push({ point: vector(shape.point), normal: vector(shape.normal).normalize(), isSolid: true });
-      else this.addObstacle(obstacle, shape);
+      if (shape.kind !== "plane") {
+        this.addObstacle(obstacle, shape);
+        continue;
+      }
+      const ground = { point: vector(shape.point), normal: vector(shape.normal).normalize(), isSolid: true };
+      if (obstacle.drive) this.addDriven(new Drive(obstacle.drive), this.surfaceOf(ground));
+      else this.grounds.push(ground);
     }
     // Without a plane the grid lies beneath everything, as a scale only.
     if (this.grounds.length === 0) {
@@ -76,7 +90,7 @@ export class Scenery {
     this.lines.color.set(cssColor("--grid"));
   }
 
-  private addObstacle({ name, color }: ObstacleData, shape: Exclude<ObstacleShape, { kind: "plane" }>): void {
+  private addObstacle({ name, color, drive }: ObstacleData, shape: Exclude<ObstacleShape, { kind: "plane" }>): void {
     const geometry = obstacleGeometry(shape);
     const { scale } = this.frame;
     const { up } = this.frame.axes;
@@ -91,16 +105,47 @@ export class Scenery {
     const outline = new THREE.LineSegments(new THREE.EdgesGeometry(geometry, 20), this.edges);
     mesh.add(outline);
     mesh.name = name;
-    this.group.add(mesh);
     this.solids.push(mesh);
     geometry.computeBoundingBox();
-    const top = geometry.boundingBox!.max.dot(up) * scale;
-    this.labels.push({
-      at: mesh.position.clone().addScaledVector(up, top),
+    const top = geometry.boundingBox!.max.dot(up);
+    const label: LabelSpec = {
+      at: mesh.position.clone().addScaledVector(up, top * scale),
       text: name,
       className: "label-obstacle",
       priority: 1,
-    });
+    };
+    this.labels.push(label);
+    if (drive) this.addDriven(new Drive(drive), mesh, { spec: label, at: vector(center).addScaledVector(up, top) });
+    else this.group.add(mesh);
+  }
+
+  private addDriven(drive: Drive, what: THREE.Object3D, label?: Driven["label"]): void {
+    const drawn = new THREE.Group();
+    drawn.add(what);
+    this.group.add(drawn);
+    this.driven.push({ drive, drawn, label });
+  }
+
+  /** Puts what moves to where it is at time t. */
+  update(t: number): void {
+    for (const { drive, drawn, label } of this.driven) {
+      drive.move(drawn, this.frame, t);
+      if (!label) continue;
+      const { x, y, z } = drive.place(label.at, t);
+      label.spec.at.copy(this.frame.toView([x, y, z]));
+    }
+  }
+
+  /** A square of a plane that moves, as large as the picture. */
+  private surfaceOf({ point, normal }: Ground): THREE.Mesh {
+    const side = 10 * this.spacing * this.frame.scale;
+    const mesh = new THREE.Mesh(new THREE.PlaneGeometry(side, side), this.ground);
+    mesh.quaternion.setFromUnitVectors(new THREE.Vector3(0, 0, 1), normal);
+    const { x, y, z } = new THREE.Plane()
+      .setFromNormalAndCoplanarPoint(normal, point)
+      .projectPoint(this.frame.box.getCenter(new THREE.Vector3()), new THREE.Vector3());
+    mesh.position.copy(this.frame.toView([x, y, z]));
+    return mesh;
   }
 
   /** A rectangle of whole squares under the picture, with scales if `isScale`. */

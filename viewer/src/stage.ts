@@ -345,6 +345,7 @@ export class Stage {
       this.runGroups[run].visible = run === 0 || this.showsGhosts;
       for (const actor of actors) actor.update(t, this.visibilityOf(actor, actors.length), pixel, this.pictureSize);
     });
+    this.scenery.update(t);
     const isOther = this.impacts.map((marks) => {
       marks.dots.visible = this.showsImpacts;
       return marks.setTime(t);

@@ -1,5 +1,6 @@
 import * as THREE from "three";
 import type { ObstacleShape, Vector } from "./data";
+import { Drive } from "./drive";
 import type { BodyMotion, Run } from "./motion";
 import { trailOf } from "./sampling";
 import { reach, vector } from "./shapes";
@@ -136,10 +137,24 @@ export function sceneBox(runs: readonly Run[]): THREE.Box3 {
     if (isStill && obstacle.shape.kind === "plane") box.expandByPoint(footOn(obstacle.shape, bodies));
     if (!own) continue;
     const ownSize = own.getSize(new THREE.Vector3());
-    if (isStill || Math.max(ownSize.x, ownSize.y, ownSize.z) <= kLargestObstacle * largest) box.union(own);
+    if (!isStill && Math.max(ownSize.x, ownSize.y, ownSize.z) > kLargestObstacle * largest) continue;
+    box.union(own);
+    if (obstacle.drive) box.union(sweptBox(own, new Drive(obstacle.drive), runs[0]));
   }
   // A body at rest needs a picture of some size too.
   if (box.getSize(new THREE.Vector3()).length() === 0) box.expandByScalar(1);
+  return box;
+}
+
+/** What holds an obstacle all along its way. */
+function sweptBox(start: THREE.Box3, drive: Drive, run: Run): THREE.Box3 {
+  const box = new THREE.Box3();
+  const reach = 0.5 * start.getSize(new THREE.Vector3()).length();
+  const middle = start.getCenter(new THREE.Vector3());
+  for (let i = 0; i <= 300; ++i) {
+    const { x, y, z } = drive.place(middle, run.begin + ((run.end - run.begin) * i) / 300);
+    box.union(ball([x, y, z], reach));
+  }
   return box;
 }
 

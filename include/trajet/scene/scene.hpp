@@ -150,13 +150,17 @@ enum class OnHit { stop, bounce, pass };
 /// The axis of the world that points up in pictures. Nothing in a motion depends on it.
 enum class UpAxis { y, z };
 
-/// Something at rest that bodies meet.
+/// Something that bodies meet: at rest, or moving as told, whatever hits it.
 struct ObstacleDefinition {
   std::string name;
   ShapeDefinition shape;  ///< a ball, a cuboid, a plane, a disk, a rectangle or a triangle
-  /// Where the origin of the shape's frame is, m; none: at that of the world.
+  /// Where the origin of the shape's frame is, m; none: at that of the world. May be a formula of t.
   std::optional<Expression> center{};
-  OrientationDefinition orientation{};  ///< of the shape's frame
+  OrientationDefinition orientation{};  ///< of the shape's frame; its parts may be formulas of t
+  /// Of the frame, from the start on, m/s; instead of a `center` that is a formula of t.
+  std::optional<Expression> velocity{};
+  /// Of the frame about its origin, world axes, rad/s; instead of an `orientation` by formulas of t.
+  std::optional<Expression> angular_velocity{};
   OnHit on_hit = OnHit::stop;
   /// 0..1, for bounce; may be a formula of `u`, the speed of approach along the normal, m/s; none: 1
   std::optional<Expression> restitution{};

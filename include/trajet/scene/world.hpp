@@ -59,11 +59,19 @@ struct World {
     BodySlice slice() const { return {offset, rotation ? std::optional(rotation->layout) : std::nullopt}; }
   };
 
-  /// A thing that is fixed in the world.
+  /// How a thing moves that is driven as the scene says, whatever hits it.
+  struct Drive {
+    Vector3 pivot{};  ///< a place of the thing, m, in the world, at the start
+    Program pose{};   ///< of t: where that place is, m, and the unit quaternion by which the thing has turned about it
+    bool turns = false;  ///< or the quaternion is 1
+  };
+
+  /// A thing that is fixed in the world, or driven.
   struct Obstacle : Thing {
-    Vector3 p_WB;                         ///< of the solid's frame, m
+    std::optional<Drive> drive{};         ///< none: fixed
+    Vector3 p_WB;                         ///< of the solid's frame at the start, m
     Quaternion q_WB{1.0, 0.0, 0.0, 0.0};  ///< unit
-    Shape shape;                          ///< the solid where it stands
+    Shape shape;                          ///< the solid where it stands at the start
     OnHit on_hit = OnHit::stop;
     RestitutionLaw restitution{};
     SourceLocation restitution_where{};
