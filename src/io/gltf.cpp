@@ -247,7 +247,9 @@ void write_gltf(const MotionRecord& motion, const RunResult& result, double fps,
   add_bodies(builder, root, motion, result, extent, fps);
   for (const World::Obstacle& obstacle : motion.world().obstacles) {
     const LinearColor color = obstacle.color ? linear(*obstacle.color) : kObstacleColor;
-    const int mesh = builder.add_mesh(obstacle.name, detail::obstacle_mesh(obstacle.shape, extent), color);
+    const detail::GltfMesh surface = detail::obstacle_mesh(obstacle.shape, extent);
+    if (surface.positions.empty()) continue;  // of a room, the first wall shows all
+    const int mesh = builder.add_mesh(obstacle.name, surface, color);
     builder.place(builder.add_node(obstacle.name, mesh, root), detail::obstacle_pose(obstacle.shape, extent));
   }
   detail::write_with_records(std::move(builder).write(result.title), kRecordsMark, result, write);

@@ -8,7 +8,8 @@ namespace trajet {
 /// A body's shape with its numbers. Throws InputError that points at the place.
 Solid make_solid(const BodyDefinition& body, const SceneNumbers& numbers);
 
-/// An obstacle with its numbers, but for what happens at it. Throws InputError that points at the place.
-World::Obstacle make_obstacle(const ObstacleDefinition& obstacle, const SceneNumbers& numbers);
+/// An obstacle with its numbers, but for its restitution: several of one name where it has parts. Throws InputError
+/// that points at the place.
+std::vector<World::Obstacle> make_obstacles(const ObstacleDefinition& obstacle, const SceneNumbers& numbers);
 
 }  // namespace trajet
