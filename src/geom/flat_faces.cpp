@@ -1,11 +1,14 @@
 #include "trajet/geom/flat_faces.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <type_traits>
 #include <variant>
 
+#include "trajet/geom/cavity.hpp"
 #include "trajet/geom/distance.hpp"
 #include "trajet/geom/triangle_surface.hpp"
+#include "trajet/portable.hpp"
 
 namespace trajet {
 namespace {
@@ -24,12 +27,25 @@ bool are_parallel(const Vector3& a, const Vector3& b) {
 /// The triangle of a surface on which a point is, or goes on, deepest within: of those with that normal.
 std::optional<Triangle> triangle_at(const SurfaceTriangles& surface, const Vector3& point, const Vector3& normal) {
   std::optional<Triangle> deepest;
-  for (const int index : triangles_at(surface, point, on_surface(surface, point))) {
+  const Vector3 foot = point - surface.growth * normal;
+  for (const int index : triangles_at(surface, foot, on_surface(surface, foot))) {
     const Triangle triangle = surface.triangle(index);
     if (!are_parallel(triangle.normal, normal)) continue;
-    if (!deepest || in_plane_gap(triangle, point) < in_plane_gap(*deepest, point)) deepest = triangle;
+    if (!deepest || in_plane_gap(triangle, foot) < in_plane_gap(*deepest, foot)) deepest = triangle;
   }
   return deepest;
+}
+
+/// The flat end of a solid of revolution that looks along `normal`, if there is one.
+std::optional<FaceRim> level_end(const SolidOfRevolution& solid, const Vector3& normal) {
+  const Vector3 axis = solid.R_WB.col(2);
+  if (!are_parallel(axis, normal)) return std::nullopt;
+  const bool is_upper = axis.dot(normal) > 0.0;
+  const std::size_t last = solid.profile.size() - 2;
+  const Eigen::Vector2d from = solid.profile[is_upper ? last : 0], to = solid.profile[is_upper ? last + 1 : 1];
+  if (from.y() != to.y()) return std::nullopt;
+  const double side = is_upper ? 1.0 : -1.0;
+  return FaceRim{solid.center + (from.y() + side * solid.growth) * axis, axis, std::max(from.x(), to.x())};
 }
 
 /// The direction in which a face of a shape looks, if it is flat there.
@@ -45,6 +61,17 @@ class FlatNormal {
     return is_parallel(box.R_WB.col(0)) || is_parallel(box.R_WB.col(1)) || is_parallel(box.R_WB.col(2));
   }
   bool operator()(const Sphere&) const { return false; }
+  bool operator()(const EllipsoidBody&) const { return false; }
+  bool operator()(const Terrain&) const { return false; }
+  bool operator()(const Cavity& cavity) const {
+    return ranges::any_of(cavity.walls->planes, [&](const Plane& plane) {
+      const double size = point_.lpNorm<1>() + plane.point.lpNorm<1>();
+      constexpr double kOnSurface = 1e-9;
+      return plane.normal.dot(normal_) > 0.0 && is_parallel(plane.normal) &&
+             std::abs(signed_distance(plane, point_)) <= kOnSurface * size;
+    });
+  }
+  bool operator()(const SolidOfRevolution& solid) const { return level_end(solid, normal_).has_value(); }
   bool operator()(const MeshSurface& surface) const {
     return triangle_at(*surface.triangles, point_, normal_).has_value();
   }
@@ -83,6 +110,13 @@ class Outline {
       if (i != face) add_pair(outline, box.center, box.R_WB.col(i), box.half_size[i]);
     return outline;
   }
+  FaceOutline operator()(const EllipsoidBody&) const { return {}; }
+  FaceOutline operator()(const Terrain&) const { return {}; }
+  FaceOutline operator()(const Cavity&) const { return {}; }  // its other walls keep bodies on each
+  FaceOutline operator()(const SolidOfRevolution& solid) const {
+    const std::optional<FaceRim> end = level_end(solid, normal_);
+    return {{}, end};
+  }
   FaceOutline operator()(const MeshSurface& surface) const {
     const std::optional<Triangle> triangle = triangle_at(*surface.triangles, point_, normal_);
     return triangle ? (*this)(*triangle) : FaceOutline();
@@ -105,6 +139,10 @@ struct Thin {
   bool operator()(const Triangle&) const { return true; }
   bool operator()(const Sphere&) const { return false; }
   bool operator()(const Box&) const { return false; }
+  bool operator()(const SolidOfRevolution&) const { return false; }
+  bool operator()(const EllipsoidBody&) const { return false; }
+  bool operator()(const Cavity&) const { return false; }
+  bool operator()(const Terrain&) const { return false; }
   bool operator()(const MeshSurface& surface) const { return !surface.triangles->is_closed; }
 };
 
@@ -120,6 +158,10 @@ class PositiveSide {
   Result operator()(const Triangle& triangle) const { return triangle.normal; }
   Result operator()(const Sphere&) const { return std::nullopt; }
   Result operator()(const Box&) const { return std::nullopt; }
+  Result operator()(const SolidOfRevolution&) const { return std::nullopt; }
+  Result operator()(const EllipsoidBody&) const { return std::nullopt; }
+  Result operator()(const Cavity&) const { return std::nullopt; }
+  Result operator()(const Terrain&) const { return std::nullopt; }
   Result operator()(const MeshSurface& surface) const {
     const std::optional<Triangle> triangle = triangle_at(*surface.triangles, point_, normal_);
     return triangle ? Result(triangle->normal) : std::nullopt;

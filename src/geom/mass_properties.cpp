@@ -37,6 +37,20 @@ VolumeProperties capsule_properties(double radius, double height) {
   return {cylinder.volume + ball, Vector3::Zero(), Vector3(across, across, along).asDiagonal()};
 }
 
+VolumeProperties cone_properties(double radius, double height) {
+  const double volume = pi / 3.0 * radius * radius * height;
+  const double across = 3.0 / 80.0 * volume * (4.0 * radius * radius + height * height);
+  return {volume, Vector3::Zero(), Vector3(across, across, 0.3 * volume * radius * radius).asDiagonal()};
+}
+
+VolumeProperties ellipsoid_properties(const Vector3& radii) {
+  const double volume = 4.0 / 3.0 * pi * radii.prod();
+  const Vector3 squares = radii.cwiseAbs2();
+  const Vector3 moments =
+      0.2 * volume * Vector3(squares.y() + squares.z(), squares.z() + squares.x(), squares.x() + squares.y());
+  return {volume, Vector3::Zero(), moments.asDiagonal()};
+}
+
 VolumeProperties mesh_properties(const TriangleMesh& mesh) {
   if (mesh.vertices.empty()) throw std::domain_error("the surface has no vertices");
   // Sums over tetrahedra with the corners o, a, b, c, relative to o: with D = (a x b) . c, which is six times the

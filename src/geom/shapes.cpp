@@ -4,6 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace trajet {
 
@@ -15,6 +16,19 @@ void require_finite(const Vector3& v, const char* name) {
 
 void require_positive(double x, const char* name) {
   if (!(x > 0.0) || !std::isfinite(x)) throw std::domain_error(std::string(name) + " must be positive and finite");
+}
+
+void require_rotation(const Matrix3& R_WB) {
+  constexpr double kOrthogonality = 1e-9;
+  if (!(R_WB.transpose() * R_WB).isIdentity(kOrthogonality) || !(R_WB.determinant() > 0.0))
+    throw std::domain_error("orientation must be a rotation");
+}
+
+SolidOfRevolution turned(const Vector3& center, const Matrix3& R_WB, std::vector<Eigen::Vector2d> profile,
+                         double growth) {
+  require_finite(center, "center");
+  require_rotation(R_WB);
+  return {center, R_WB, std::move(profile), growth};
 }
 
 Vector3 direction(const Vector3& v, const char* name) {
@@ -79,11 +93,34 @@ Sphere make_sphere(const Vector3& center, double radius) {
 Box make_box(const Vector3& center, const Vector3& size, const Matrix3& R_WB) {
   require_finite(center, "center");
   for (const double edge : size) require_positive(edge, "size");
-  constexpr double kOrthogonality = 1e-9;
-  if (!(R_WB.transpose() * R_WB).isIdentity(kOrthogonality) || !(R_WB.determinant() > 0.0)) {
-    throw std::domain_error("orientation must be a rotation");
-  }
+  require_rotation(R_WB);
   return {center, 0.5 * size, R_WB};
+}
+
+SolidOfRevolution make_cylinder(const Vector3& center, const Matrix3& R_WB, double radius, double height) {
+  require_positive(radius, "radius");
+  require_positive(height, "height");
+  const double h = 0.5 * height;
+  return turned(center, R_WB, {{0.0, -h}, {radius, -h}, {radius, h}, {0.0, h}}, 0.0);
+}
+
+SolidOfRevolution make_capsule(const Vector3& center, const Matrix3& R_WB, double radius, double height) {
+  require_positive(radius, "radius");
+  require_positive(height, "height");
+  return turned(center, R_WB, {{0.0, -0.5 * height}, {0.0, 0.5 * height}}, radius);
+}
+
+SolidOfRevolution make_cone(const Vector3& center, const Matrix3& R_WB, double radius, double height) {
+  require_positive(radius, "radius");
+  require_positive(height, "height");
+  return turned(center, R_WB, {{0.0, -0.25 * height}, {radius, -0.25 * height}, {0.0, 0.75 * height}}, 0.0);
+}
+
+EllipsoidBody make_ellipsoid(const Vector3& center, const Matrix3& R_WB, const Vector3& radii) {
+  require_finite(center, "center");
+  for (const double radius : radii) require_positive(radius, "radii");
+  require_rotation(R_WB);
+  return {center, radii, R_WB};
 }
 
 BoundingBall bounding_ball(const Disk& disk) { return {disk.center, disk.radius}; }
@@ -98,5 +135,11 @@ BoundingBall bounding_ball(const Triangle& triangle) {
 }
 BoundingBall bounding_ball(const Sphere& sphere) { return {sphere.center, sphere.radius}; }
 BoundingBall bounding_ball(const Box& box) { return {box.center, box.half_size.norm()}; }
+BoundingBall bounding_ball(const SolidOfRevolution& solid) {
+  double reach = 0.0;
+  for (const Eigen::Vector2d& corner : solid.profile) reach = std::max(reach, corner.norm());
+  return {solid.center, reach + solid.growth};
+}
+BoundingBall bounding_ball(const EllipsoidBody& ellipsoid) { return {ellipsoid.center, ellipsoid.radii.maxCoeff()}; }
 
 }  // namespace trajet

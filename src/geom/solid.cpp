@@ -8,6 +8,9 @@
 #include <utility>
 #include <vector>
 
+#include "trajet/geom/compound.hpp"
+#include "trajet/geom/rounded_solid.hpp"
+#include "trajet/geom/shape_pictures.hpp"
 #include "trajet/math/polynomial.hpp"
 
 namespace trajet {
@@ -44,10 +47,22 @@ struct BoundingRadius {
   double operator()(const Cuboid& cuboid) const { return cuboid.half_size.norm(); }
   double operator()(const Cylinder& cylinder) const { return std::hypot(cylinder.radius, cylinder.half_height); }
   double operator()(const Capsule& capsule) const { return capsule.radius + capsule.half_height; }
+  double operator()(const Cone& cone) const {
+    return std::max(0.75 * cone.height, std::hypot(cone.radius, 0.25 * cone.height));
+  }
+  double operator()(const Ellipsoid& ellipsoid) const { return ellipsoid.radii.maxCoeff(); }
   double operator()(const SoccerBall& ball) const { return ball.radius; }
   double operator()(const Hull& hull) const { return hull.polyhedron->radius; }
   double operator()(const Mesh& mesh) const { return mesh.polyhedron->radius; }
+  double operator()(const RoundedSolid& solid) const { return bounding_radius(*solid.core); }
+  double operator()(const Compound& compound) const {
+    double radius = 0.0;
+    for (const CompoundPart& part : compound.parts->parts)
+      radius = std::max(radius, part.p_BP.norm() + bounding_radius(part.solid));
+    return radius;
+  }
   double operator()(const HalfSpace&) const { return kInfinity; }
+  double operator()(const Surroundings&) const { return kInfinity; }
   double operator()(const RoundPlate& plate) const { return plate.radius; }
   double operator()(const RectangularPlate& plate) const { return std::hypot(plate.half_width, plate.half_height); }
   double operator()(const TriangularPlate& plate) const {
@@ -68,6 +83,8 @@ struct VolumePropertiesOf {
   Result operator()(const Capsule& capsule) const {
     return capsule_properties(capsule.radius, 2.0 * capsule.half_height);
   }
+  Result operator()(const Cone& cone) const { return cone_properties(cone.radius, cone.height); }
+  Result operator()(const Ellipsoid& ellipsoid) const { return ellipsoid_properties(ellipsoid.radii); }
   Result operator()(const SoccerBall& ball) const {
     VolumeProperties properties = mesh_properties(convex_hull(truncated_icosahedron(ball.radius)));
     // by its symmetry every axis is a principal one: say so to the last bit
@@ -76,7 +93,10 @@ struct VolumePropertiesOf {
   }
   Result operator()(const Hull& hull) const { return hull.polyhedron->properties; }
   Result operator()(const Mesh& mesh) const { return mesh.polyhedron->properties; }
+  Result operator()(const RoundedSolid& solid) const { return solid.core->properties; }
+  Result operator()(const Compound& compound) const { return compound.parts->properties; }
   Result operator()(const HalfSpace&) const { return std::nullopt; }
+  Result operator()(const Surroundings&) const { return std::nullopt; }
   Result operator()(const RoundPlate&) const { return std::nullopt; }
   Result operator()(const RectangularPlate&) const { return std::nullopt; }
   Result operator()(const TriangularPlate&) const { return std::nullopt; }
@@ -95,9 +115,21 @@ class Reach {
     return cylinder.radius * n_.head<2>().norm() + cylinder.half_height * std::abs(n_.z());
   }
   double operator()(const Capsule& capsule) const { return capsule.radius + capsule.half_height * std::abs(n_.z()); }
+  double operator()(const Cone& cone) const {
+    return std::max(0.75 * cone.height * n_.z(), cone.radius * n_.head<2>().norm() - 0.25 * cone.height * n_.z());
+  }
+  double operator()(const Ellipsoid& ellipsoid) const { return n_.cwiseProduct(ellipsoid.radii).norm(); }
   double operator()(const SoccerBall& ball) const { return ball.radius; }
   double operator()(const Hull& hull) const { return of_points(hull.polyhedron->surface.vertices); }
   double operator()(const Mesh& mesh) const { return of_points(mesh.polyhedron->surface.vertices); }
+  double operator()(const RoundedSolid& solid) const { return n_.dot(farthest_point(*solid.core, n_)); }
+  double operator()(const Compound& compound) const {
+    double farthest = -kInfinity;
+    for (const CompoundPart& part : compound.parts->parts)
+      farthest = std::max(farthest, n_.dot(part.p_BP) + std::visit(Reach(part.R_BP.transpose() * n_), part.solid));
+    return farthest;
+  }
+  double operator()(const Surroundings&) const { return kInfinity; }
   double operator()(const HalfSpace&) const { return n_ == Vector3::UnitZ() ? 0.0 : kInfinity; }
   double operator()(const RoundPlate& plate) const { return plate.radius * n_.head<2>().norm(); }
   double operator()(const RectangularPlate& plate) const {
@@ -162,10 +194,29 @@ struct PictureMesh {
     }
     return turned(profile);
   }
+  TriangleMesh operator()(const Cone& cone) const {
+    return turned({{cone.radius, -0.25 * cone.height}, {0.0, 0.75 * cone.height}});
+  }
+  TriangleMesh operator()(const Ellipsoid& ellipsoid) const { return ellipsoid_picture(ellipsoid.radii); }
   TriangleMesh operator()(const SoccerBall& ball) const { return convex_hull(truncated_icosahedron(ball.radius)); }
   TriangleMesh operator()(const Hull& hull) const { return hull.polyhedron->surface; }
   TriangleMesh operator()(const Mesh& mesh) const { return mesh.polyhedron->surface; }
+  TriangleMesh operator()(const RoundedSolid& solid) const { return picture_mesh(*solid.core); }
+  TriangleMesh operator()(const Compound& compound) const {
+    TriangleMesh mesh;
+    for (const CompoundPart& part : compound.parts->parts) {
+      const auto* ball = std::get_if<Ball>(&part.solid);
+      const TriangleMesh own =
+          placed(ball != nullptr ? ellipsoid_picture(Vector3::Constant(ball->radius)) : std::visit(*this, part.solid),
+                 part.p_BP, part.R_BP);
+      const int first = static_cast<int>(mesh.vertices.size());
+      mesh.vertices.insert(mesh.vertices.end(), own.vertices.begin(), own.vertices.end());
+      for (const auto& [a, b, c] : own.triangles) mesh.triangles.push_back({first + a, first + b, first + c});
+    }
+    return mesh;
+  }
   TriangleMesh operator()(const HalfSpace&) const { return {}; }
+  TriangleMesh operator()(const Surroundings&) const { return {}; }
   TriangleMesh operator()(const RoundPlate& plate) const {
     constexpr int kSides = 32;
     std::vector<Vector3> rim;

@@ -6,6 +6,8 @@
 #include <limits>
 #include <span>
 
+#include "trajet/geom/compound.hpp"
+#include "trajet/geom/rounded_solid.hpp"
 #include "trajet/portable.hpp"
 
 namespace trajet {
@@ -32,17 +34,29 @@ struct Support {
   Vector3 operator()(const Capsule& capsule) const {
     return along(d, capsule.radius) + Vector3(0, 0, with_sign(capsule.half_height, d.z()));
   }
+  Vector3 operator()(const Cone& cone) const {
+    const Vector3 tip(0.0, 0.0, 0.75 * cone.height);
+    const Vector3 rim = along({d.x(), d.y(), 0.0}, cone.radius) - Vector3(0.0, 0.0, 0.25 * cone.height);
+    return d.dot(tip) > d.dot(rim) ? tip : rim;
+  }
+  Vector3 operator()(const Ellipsoid& ellipsoid) const {
+    const Vector3 stretched = ellipsoid.radii.cwiseProduct(d);
+    return ellipsoid.radii.cwiseProduct(along(stretched, 1.0));
+  }
   Vector3 operator()(const SoccerBall& ball) const { return farthest(truncated_icosahedron(ball.radius), d); }
   Vector3 operator()(const Hull& hull) const { return farthest(hull.polyhedron->surface.vertices, d); }
   Vector3 operator()(const Mesh& mesh) const { return farthest(mesh.polyhedron->surface.vertices, d); }
   Vector3 operator()(const RoundPlate& plate) const { return round(plate.radius, 0.0); }
   Vector3 operator()(const RectangularPlate& plate) const { return box({plate.half_width, plate.half_height, 0.0}); }
   Vector3 operator()(const TriangularPlate& plate) const { return farthest(plate.corners, d); }
-  Vector3 operator()(const HalfSpace&) const {
-    return Vector3::Constant(std::numeric_limits<double>::quiet_NaN());  // not bounded
-  }
+  Vector3 operator()(const RoundedSolid& solid) const { return farthest_point(*solid.core, d); }
+  // what has no bounds, or is not convex, has no such point
+  Vector3 operator()(const HalfSpace&) const { return none(); }
+  Vector3 operator()(const Surroundings&) const { return none(); }
+  Vector3 operator()(const Compound&) const { return none(); }
 
  private:
+  static Vector3 none() { return Vector3::Constant(std::numeric_limits<double>::quiet_NaN()); }
   Vector3 box(const Vector3& half) const {
     return {with_sign(half.x(), d.x()), with_sign(half.y(), d.y()), with_sign(half.z(), d.z())};
   }
@@ -126,6 +140,11 @@ class Simplex {
 }  // namespace
 
 bool overlap(const PlacedSolid& a, const PlacedSolid& b) {
+  if (const auto* compound = std::get_if<Compound>(&a.solid))
+    return ranges::any_of(compound->parts->parts, [&](const CompoundPart& part) {
+      return overlap({part.solid, a.p_WB + a.R_WB * part.p_BP, a.R_WB * part.R_BP}, b);
+    });
+  if (std::holds_alternative<Compound>(b.solid)) return overlap(b, a);
   // what lies no deeper than rounding only touches
   constexpr double kTouch = 1e-12;
   const double reach = bounding_radius(a.solid) + bounding_radius(b.solid);

@@ -186,6 +186,14 @@ MeshSurface make_mesh_surface(const TriangleMesh& mesh) {
       std::make_shared<const SurfaceTriangles>(SurfaceTriangles{std::move(own), is_closed, spacing, BoxTree(boxes)})};
 }
 
+MeshSurface make_rounded_hull_surface(std::span<const Vector3> points, double rounding) {
+  SurfaceTriangles triangles = *make_mesh_surface(eroded_hull(convex_hull(points), rounding)).triangles;
+  triangles.growth = rounding;
+  return {std::make_shared<const SurfaceTriangles>(std::move(triangles))};
+}
+
+double growth(const MeshSurface& surface) { return surface.triangles->growth; }
+
 SurfacePlace nearest_place(const SurfaceTriangles& surface, const Vector3& p) {
   SurfacePlace nearest{0, surface.mesh.vertices[0], std::numeric_limits<double>::infinity()};
   // Whatever is nearer than the half side of a box around p lies within the box.
@@ -209,9 +217,10 @@ double signed_distance(const MeshSurface& surface, const Vector3& p) {
   const SurfaceTriangles& triangles = *surface.triangles;
   const double distance = nearest_place(triangles, p).distance;
   if (!triangles.is_closed) return distance;
+  const double growth = triangles.growth;
   double angle = 0.0;
   for (const Corners& corners : triangles.mesh.triangles) angle += solid_angle(triangles.mesh, corners, p);
-  return angle > 2.0 * std::numbers::pi ? -distance : distance;  // 4 pi inside, 0 outside
+  return (angle > 2.0 * std::numbers::pi ? -distance : distance) - growth;  // 4 pi inside, 0 outside
 }
 
 BoundingBall bounding_ball(const MeshSurface& surface) {
@@ -220,7 +229,7 @@ BoundingBall bounding_ball(const MeshSurface& surface) {
   const Vector3 center = 0.5 * (box.lower + box.upper);
   double squared = 0.0;
   for (const Vector3& p : surface.triangles->mesh.vertices) squared = std::max(squared, (p - center).squaredNorm());
-  return {center, std::sqrt(squared)};
+  return {center, std::sqrt(squared) + surface.triangles->growth};
 }
 
 std::vector<int> triangles_at(const SurfaceTriangles& surface, const Vector3& point, double tolerance) {

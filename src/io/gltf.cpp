@@ -247,8 +247,9 @@ void write_gltf(const MotionRecord& motion, const RunResult& result, double fps,
   add_bodies(builder, root, motion, result, extent, fps);
   for (const World::Obstacle& obstacle : motion.world().obstacles) {
     const LinearColor color = obstacle.color ? linear(*obstacle.color) : kObstacleColor;
-    const int mesh = builder.add_mesh(obstacle.name, detail::obstacle_mesh(obstacle.shape, extent), color);
-    const int node = builder.add_node(obstacle.name, mesh, root);
+    const detail::GltfMesh surface = detail::obstacle_mesh(obstacle.shape, extent);
+    if (surface.positions.empty()) continue;  // of a room, the first wall shows all
+    const int node = builder.add_node(obstacle.name, builder.add_mesh(obstacle.name, surface, color), root);
     const detail::Pose start = detail::obstacle_pose(obstacle.shape, extent);
     builder.place(node, start);
     if (obstacle.drive && result.elapsed != 0.0)

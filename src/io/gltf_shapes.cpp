@@ -5,8 +5,11 @@
 #include <limits>
 #include <numbers>
 #include <span>
+#include <utility>
 
+#include "trajet/geom/cavity.hpp"
 #include "trajet/geom/faces.hpp"
+#include "trajet/geom/shape_pictures.hpp"
 #include "trajet/geom/triangle_surface.hpp"
 
 namespace trajet::detail {
@@ -142,6 +145,25 @@ Pose pose_of(const MeshSurface& surface, const Extent&) {
   return {bounding_ball(surface).center, Quaternion::Identity()};
 }
 
+Pose pose_of(const SolidOfRevolution& solid, const Extent&) { return {solid.center, Quaternion(solid.R_WB)}; }
+
+Pose pose_of(const EllipsoidBody& ellipsoid, const Extent&) { return {ellipsoid.center, Quaternion(ellipsoid.R_WB)}; }
+
+/// Its picture stands in the world.
+Pose pose_of(const Cavity&, const Extent&) { return {Vector3::Zero(), Quaternion::Identity()}; }
+
+Pose pose_of(const Terrain&, const Extent&) { return {Vector3::Zero(), Quaternion::Identity()}; }
+
+GltfMesh faceted(const TriangleMesh& surface) {
+  GltfMesh mesh;
+  for (const auto& triangle : surface.triangles) {
+    Vector3 corners[3];
+    for (std::size_t i = 0; i < 3; ++i) corners[i] = surface.vertices[static_cast<std::size_t>(triangle[i])];
+    add_polygon(mesh, corners, (corners[1] - corners[0]).cross(corners[2] - corners[0]).normalized());
+  }
+  return mesh;
+}
+
 GltfMesh mesh_of(const Plane&, const Extent& extent) {
   const double side = 2.0 * kPlaneHalf * extent.size;
   return polygon_mesh(face(make_rectangle(Vector3::Zero(), Vector3::UnitZ(), Vector3::UnitY(), side, side)));
@@ -174,6 +196,7 @@ GltfMesh mesh_of(const Box& box, const Extent&) {
 
 GltfMesh mesh_of(const MeshSurface& surface, const Extent&) {
   const Vector3 origin = bounding_ball(surface).center;
+  if (surface.triangles->growth > 0.0) return faceted(placed(picture_of(surface), -origin, Matrix3::Identity()));
   GltfMesh mesh;
   for (int i = 0; i < surface.triangles->size(); ++i) {
     const Triangle triangle = surface.triangles->triangle(i);
@@ -182,6 +205,22 @@ GltfMesh mesh_of(const MeshSurface& surface, const Extent&) {
     add_polygon(mesh, corners, triangle.normal);
   }
   return mesh;
+}
+
+GltfMesh mesh_of(const SolidOfRevolution& solid, const Extent&) { return faceted(local_picture(solid)); }
+
+GltfMesh mesh_of(const EllipsoidBody& ellipsoid, const Extent&) { return faceted(local_picture(ellipsoid)); }
+
+/// Seen from inside.
+GltfMesh mesh_of(const Cavity& cavity, const Extent&) {
+  TriangleMesh inward = cavity.walls->picture;
+  for (auto& triangle : inward.triangles) std::swap(triangle[1], triangle[2]);
+  return faceted(inward);
+}
+
+GltfMesh mesh_of(const Terrain& terrain, const Extent& extent) {
+  const Vector3 half = Vector3::Constant(0.5 * extent.size);
+  return faceted(picture(terrain, Aabb{extent.center - half, extent.center + half}));
 }
 
 }  // namespace

@@ -8,8 +8,6 @@ namespace {
 
 using Keys = std::vector<std::string_view>;
 
-ShapeDefinition read_hull(const TableReader& table) { return HullShape{table.vector_list("points", kLength)}; }
-
 /// Shapes of bodies: one row each, with the keys that describe them.
 struct BodyKind {
   std::string_view name;
@@ -17,26 +15,21 @@ struct BodyKind {
   ShapeDefinition (*read)(const TableReader&);
 };
 
-const std::array<BodyKind, 8>& body_kinds() {
+const std::array<BodyKind, 11>& body_kinds() {
   using Table = const TableReader&;
-  static const std::array<BodyKind, 8> kinds{{
+  static const std::array<BodyKind, 11> kinds{{
       {"point", {}, [](Table) { return ShapeDefinition(PointShape{}); }},
       {"sphere", {"radius"}, [](Table t) { return ShapeDefinition(BallShape{t.scalar("radius", kLength)}); }},
       {"box", {"size"}, [](Table t) { return ShapeDefinition(CuboidShape{t.vector("size", kLength)}); }},
       {"soccer-ball",
        {"radius"},
        [](Table t) { return ShapeDefinition(SoccerBallShape{t.scalar("radius", kLength)}); }},
-      {"cylinder",
-       {"radius", "height"},
-       [](Table t) {
-         return ShapeDefinition(CylinderShape{t.scalar("radius", kLength), t.scalar("height", kLength)});
-       }},
-      {"capsule",
-       {"radius", "height"},
-       [](Table t) {
-         return ShapeDefinition(CapsuleShape{t.scalar("radius", kLength), t.scalar("height", kLength)});
-       }},
+      {"cylinder", {"radius", "height"}, read_cylinder},
+      {"capsule", {"radius", "height"}, read_capsule},
+      {"cone", {"radius", "height"}, read_cone},
+      {"ellipsoid", {"radii"}, read_ellipsoid},
       {"hull", {}, read_hull},  // its `points` are the corners
+      {"compound", {"parts"}, [](Table t) { return ShapeDefinition(CompoundShape{read_parts(t, true)}); }},
       {"mesh", {"file", "scale"}, [](Table t) { return ShapeDefinition(read_mesh_shape(t)); }},
   }};
   return kinds;
@@ -58,7 +51,10 @@ void read_translation(const TableReader& table, BodyDefinition& body) {
   body.position_rate = table.optional_vector("position_rate", kSpeed);
   if (body.acceleration && body.force)
     table.fail("force", "a body moves by its acceleration or by a force with a mass, not by both");
-  if (body.force && !body.mass && !body.density) table.fail("force", "a force needs the key 'mass'");
+  const auto* compound = std::get_if<CompoundShape>(&body.shape);
+  const bool have_parts_mass = compound != nullptr && (compound->parts[0].mass || compound->parts[0].density);
+  if (body.force && !body.mass && !body.density && !have_parts_mass)
+    table.fail("force", "a force needs the key 'mass'");
 }
 
 void read_rotation(const TableReader& table, BodyDefinition& body) {
@@ -110,6 +106,7 @@ BodyDefinition read_body(const TableReader& table) {
                "force_point",
                "inertia",
                "points",
+               "rounding",
                "color"};
   keys.insert(keys.end(), kind.keys.begin(), kind.keys.end());
   const Keys planned = {"restitution", "friction"};
@@ -119,6 +116,7 @@ BodyDefinition read_body(const TableReader& table) {
   body.where = table.where("name");
   body.name = table.text("name");
   body.shape = kind.read(table);
+  body.rounding = table.optional_scalar("rounding", kLength);
   read_translation(table, body);
   read_rotation(table, body);
   if (kind.name != "hull" && table.has("points")) read_points(table, body);

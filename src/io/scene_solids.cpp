@@ -50,6 +50,22 @@ MeshShape read_mesh_shape(const TableReader& table) {
   return shape;
 }
 
+ShapeDefinition read_cylinder(const TableReader& table) {
+  return CylinderShape{table.scalar("radius", kLength), table.scalar("height", kLength)};
+}
+
+ShapeDefinition read_capsule(const TableReader& table) {
+  return CapsuleShape{table.scalar("radius", kLength), table.scalar("height", kLength)};
+}
+
+ShapeDefinition read_cone(const TableReader& table) {
+  return ConeShape{table.scalar("radius", kLength), table.scalar("height", kLength)};
+}
+
+ShapeDefinition read_ellipsoid(const TableReader& table) { return EllipsoidShape{table.vector("radii", kLength)}; }
+
+ShapeDefinition read_hull(const TableReader& table) { return HullShape{table.vector_list("points", kLength)}; }
+
 namespace {
 
 using Keys = std::vector<std::string_view>;
@@ -79,6 +95,13 @@ ShapeDefinition read_ball(const TableReader& table) { return BallShape{table.sca
 
 ShapeDefinition read_cuboid(const TableReader& table) { return CuboidShape{table.vector("size", kLength)}; }
 
+ShapeDefinition read_terrain(const TableReader& table) { return TerrainShape{table.scalar("height", kLength)}; }
+
+ShapeDefinition read_compound(const TableReader& table) { return CompoundShape{read_parts(table, false)}; }
+
+constexpr std::array<std::string_view, 5> kHollow{"sphere", "box", "cylinder", "capsule", "ellipsoid"};
+constexpr std::array<std::string_view, 7> kRounded{"sphere", "box", "cylinder", "capsule", "cone", "ellipsoid", "hull"};
+
 /// Shapes of obstacles: one row each.
 struct ObstacleKind {
   std::string_view name;
@@ -88,14 +111,21 @@ struct ObstacleKind {
   ShapeDefinition (*read)(const TableReader&);
 };
 
-const std::array<ObstacleKind, 7>& obstacle_kinds() {
-  static const std::array<ObstacleKind, 7> kinds{{
+const std::array<ObstacleKind, 14>& obstacle_kinds() {
+  static const std::array<ObstacleKind, 14> kinds{{
       {"plane", "point", true, {"normal"}, read_plane},
       {"disk", "center", true, {"normal", "radius"}, read_disk},
       {"rectangle", "center", true, {"normal", "up", "size"}, read_rectangle},
-      {"triangle", "", false, {"points"}, read_triangle},
+      {"triangle", "center", false, {"points"}, read_triangle},
       {"sphere", "center", true, {"radius"}, read_ball},
       {"box", "center", true, {"size"}, read_cuboid},
+      {"cylinder", "center", true, {"radius", "height"}, read_cylinder},
+      {"capsule", "center", true, {"radius", "height"}, read_capsule},
+      {"cone", "center", true, {"radius", "height"}, read_cone},
+      {"ellipsoid", "center", true, {"radii"}, read_ellipsoid},
+      {"hull", "center", false, {"points"}, read_hull},
+      {"terrain", "center", false, {"height"}, read_terrain},
+      {"compound", "center", false, {"parts"}, read_compound},
       {"mesh",
        "center",
        false,
@@ -105,22 +135,52 @@ const std::array<ObstacleKind, 7>& obstacle_kinds() {
   return kinds;
 }
 
+/// Shapes of the parts of a compound: solids.
+constexpr std::array<std::string_view, 8> kParts{"sphere", "box",       "cylinder", "capsule",
+                                                 "cone",   "ellipsoid", "hull",     "mesh"};
+
 }  // namespace
+
+std::vector<PartDefinition> read_parts(const TableReader& table, bool have_masses) {
+  std::vector<PartDefinition> parts;
+  for (const TableReader& each : table.subtables("parts", "a part of a compound")) {
+    if (!each.has("shape")) throw InputError(each.where(), "a part of a compound lacks the key 'shape'");
+    const std::string_view shape = kParts[each.choice("shape", kParts, 0)];
+    const ObstacleKind& kind = *ranges::find(obstacle_kinds(), shape, &ObstacleKind::name);
+    const bool may_be_round = ranges::find(kRounded, shape) != kRounded.end();
+    each.titled("a part of shape " + std::string(shape))
+        .check_keys(Keys{"shape", "position", "orientation"} + kind.keys + (may_be_round ? Keys{"rounding"} : Keys{}) +
+                    (have_masses ? Keys{"mass", "density"} : Keys{}));
+    PartDefinition part{.shape = kind.read(each)};
+    part.where = each.where();
+    part.rounding = each.optional_scalar("rounding", kLength);
+    if (each.has("position")) part.position = each.vector("position", kLength);
+    if (each.has("orientation")) part.orientation = read_orientation(each.subtable("orientation"));
+    part.mass = each.optional_scalar("mass", kMass);
+    part.density = each.optional_scalar("density", kDensity);
+    parts.push_back(std::move(part));
+  }
+  return parts;
+}
 
 ObstacleDefinition read_obstacle(const TableReader& table) {
   std::vector<std::string_view> shapes;
   for (const ObstacleKind& kind : obstacle_kinds()) shapes.push_back(kind.name);
-  constexpr std::array<std::string_view, 3> kPlannedShapes{"cylinder", "capsule", "hull"};
   if (!table.has("shape")) throw InputError(table.where(), table.title() + " lacks the key 'shape'");
-  const ObstacleKind& kind = obstacle_kinds()[table.choice("shape", shapes, 0, kPlannedShapes)];
+  const ObstacleKind& kind = obstacle_kinds()[table.choice("shape", shapes, 0)];
 
   const Keys common = {"name", "shape", "on_hit", "restitution", "color", "velocity", "angular_velocity"};
   const Keys planned = {"friction"};
   const std::string with_shape = table.title() + " of shape " + std::string(kind.name);
   TableReader titled = table.titled(with_shape);
   const bool has_center = !kind.center.empty();
+  // a plane is the same however it turns about its normal: its `normal` says it all
   const Keys turned = kind.name == "plane" ? Keys{} : Keys{"orientation"};
-  titled.check_keys(common + (has_center ? Keys{kind.center} : Keys{}) + kind.keys + turned, planned);
+  const bool may_be_hollow = ranges::find(kHollow, kind.name) != kHollow.end();
+  const bool may_be_round = ranges::find(kRounded, kind.name) != kRounded.end();
+  titled.check_keys(common + (has_center ? Keys{kind.center} : Keys{}) + kind.keys + turned +
+                        (may_be_hollow ? Keys{"inside"} : Keys{}) + (may_be_round ? Keys{"rounding"} : Keys{}),
+                    planned);
 
   constexpr std::array<std::string_view, 3> kOnHit{"stop", "bounce", "pass"};
   constexpr std::array<std::string_view, 1> kPlannedOnHit{"stick"};
@@ -129,6 +189,9 @@ ObstacleDefinition read_obstacle(const TableReader& table) {
   if (kind.needs_center || (has_center && titled.has(kind.center)))
     obstacle.center = titled.vector(kind.center, kLength);
   obstacle.shape = kind.read(titled);
+  obstacle.rounding = titled.optional_scalar("rounding", kLength);
+  if (titled.has("inside")) obstacle.is_hollow = titled.flag("inside");
+  if (obstacle.is_hollow && obstacle.rounding) titled.fail("rounding", "the inside of a shape is not rounded");
   if (titled.has("orientation")) obstacle.orientation = read_orientation(titled.subtable("orientation"));
   if (table.has("velocity")) obstacle.velocity = table.vector("velocity", kSpeed);
   if (table.has("angular_velocity")) obstacle.angular_velocity = table.vector("angular_velocity", kAngularVelocity);

@@ -76,6 +76,12 @@ std::string TableReader::text(std::string_view key) const {
   return node.as_string()->get();
 }
 
+bool TableReader::flag(std::string_view key) const {
+  const toml::node& node = required(key);
+  if (!node.is_boolean()) fail_type(node, quote(key) + ": true or false expected");
+  return node.as_boolean()->get();
+}
+
 long TableReader::whole_number(std::string_view key, long smallest, long default_value) const {
   const toml::node* node = table_.get(key);
   if (node == nullptr) return default_value;
@@ -184,6 +190,17 @@ TableReader TableReader::subtable(std::string_view key) const {
   const toml::node& node = required(key);
   if (!node.is_table()) fail_type(node, quote(key) + ": a table expected");
   return {document_, *node.as_table(), quote(key), document_.location(node), formulas_};
+}
+
+std::vector<TableReader> TableReader::subtables(std::string_view key, const std::string& title) const {
+  const toml::node& node = required(key);
+  if (!node.is_array() || node.as_array()->empty()) fail_type(node, quote(key) + ": an array of tables expected");
+  std::vector<TableReader> tables;
+  for (const toml::node& each : *node.as_array()) {
+    if (!each.is_table()) fail_type(each, quote(key) + ": an array of tables expected");
+    tables.push_back({document_, *each.as_table(), title, document_.location(each), formulas_});
+  }
+  return tables;
 }
 
 std::optional<Expression> TableReader::optional_scalar(std::string_view key, Dimension expected) const {

@@ -40,6 +40,8 @@ class TableReader {
 
   // Each throws if the key is missing, unless there is a default.
   std::string text(std::string_view key) const;
+  /// true or false.
+  bool flag(std::string_view key) const;
   long whole_number(std::string_view key, long smallest, long default_value) const;
   Expression scalar(std::string_view key, std::optional<Dimension> expected) const;
   Expression vector(std::string_view key, std::optional<Dimension> expected) const;
@@ -51,6 +53,8 @@ class TableReader {
   std::vector<Expression> scalar_list(std::string_view key, Dimension expected) const;
   std::vector<Expression> vector_list(std::string_view key, Dimension expected) const;
   TableReader subtable(std::string_view key) const;
+  /// An array of tables, at least one; each has the title `title`.
+  std::vector<TableReader> subtables(std::string_view key, const std::string& title) const;
 
   std::optional<Expression> optional_scalar(std::string_view key, Dimension expected) const;
   std::optional<Expression> optional_vector(std::string_view key, Dimension expected) const;

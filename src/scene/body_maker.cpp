@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "solid_maker.hpp"
+#include "trajet/geom/compound.hpp"
 #include "trajet/geom/mass_properties.hpp"
 #include "trajet/portable.hpp"
 #include "trajet/rigid/principal_axes.hpp"
@@ -37,6 +38,12 @@ Matrix3 given_inertia(const BodyDefinition& definition, const SceneNumbers& numb
   return inertia;
 }
 
+/// kg, of a compound whose parts say it.
+std::optional<double> mass_of_parts(const Solid& solid) {
+  const auto* compound = std::get_if<Compound>(&solid);
+  return compound != nullptr ? compound->parts->mass : std::nullopt;
+}
+
 /// The inertia about the centre of mass, where there is one.
 std::optional<Matrix3> inertia(const BodyDefinition& definition, const Solid& solid, const SceneNumbers& numbers) {
   if (has_inertia(definition)) return given_inertia(definition, numbers);
@@ -44,6 +51,7 @@ std::optional<Matrix3> inertia(const BodyDefinition& definition, const Solid& so
   if (!properties) return std::nullopt;
   if (definition.density)
     return numbers.positive(*definition.density, "density" + of_body(definition)) * properties->inertia;
+  if (const auto mass = mass_of_parts(solid)) return *mass / properties->volume * properties->inertia;
   if (!definition.mass) return std::nullopt;
   const double mass = numbers.positive(*definition.mass, "mass" + of_body(definition));
   return mass / properties->volume * properties->inertia;
@@ -114,9 +122,18 @@ World::Body make_body(const BodyDefinition& definition, const SceneNumbers& numb
   return body;
 }
 
-std::optional<double> mass_from_density(const BodyDefinition& definition, const SceneNumbers& numbers) {
+std::optional<double> mass_from_solid(const BodyDefinition& definition, const SceneNumbers& numbers) {
+  const bool is_compound = std::holds_alternative<CompoundShape>(definition.shape);
+  if (!definition.density && !is_compound) return std::nullopt;
+  const Solid solid = make_solid(definition, numbers);
+  if (const auto mass = mass_of_parts(solid)) {
+    for (const auto* own : {&definition.mass, &definition.density})
+      if (*own)
+        throw InputError((*own)->where(), "the parts" + of_body(definition) + " have their masses: it has no other");
+    return mass;
+  }
   if (!definition.density) return std::nullopt;
-  const std::optional<VolumeProperties> properties = volume_properties(make_solid(definition, numbers));
+  const std::optional<VolumeProperties> properties = volume_properties(solid);
   if (!properties)
     throw InputError(definition.density->where(), "a point has no volume: give `mass` instead of `density`");
   return numbers.positive(*definition.density, "density" + of_body(definition)) * properties->volume;

@@ -12,8 +12,9 @@ namespace trajet {
 /// turns. Throws InputError that points at the place.
 World::Body make_body(const BodyDefinition& definition, const SceneNumbers& numbers, const MethodOptions& method);
 
-/// The mass of an extended shape with a density, kg; none if the body has no density.
-std::optional<double> mass_from_density(const BodyDefinition& definition, const SceneNumbers& numbers);
+/// The mass of an extended shape with a density, or of a compound's parts, kg; none if nothing says it. Throws
+/// InputError if both the parts and the body say it.
+std::optional<double> mass_from_solid(const BodyDefinition& definition, const SceneNumbers& numbers);
 
 /// Position, velocity, orientation and angular velocity at the start.  // (6, or 6 + orientation + 3)
 Eigen::VectorXd start_state(const BodyDefinition& definition, const World::Body& body, const SceneNumbers& numbers);

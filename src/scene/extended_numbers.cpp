@@ -44,8 +44,11 @@ World::ExtendedNumbers extended_numbers(const Scene& scene, const World& world, 
     numbers.starts[static_cast<std::size_t>(state.group)][state.offset] = read.scalar(scene.states[i].value);
   }
   for (std::size_t i = 0; i < world.obstacles.size(); ++i) {
-    const ObstacleDefinition& definition = scene.obstacles[i];
+    if (!std::holds_alternative<Sphere>(world.obstacles[i].shape)) continue;
+    const ObstacleDefinition& definition =
+        *ranges::find(scene.obstacles, world.obstacles[i].name, &ObstacleDefinition::name);
     const auto* ball = std::get_if<BallShape>(&definition.shape);
+    // a part of a compound, or one that moves
     if (ball == nullptr || world.obstacles[i].drive) continue;
     const Vector3T<Real> center =
         definition.center ? read.vector(*definition.center) : Vector3T<Real>(Vector3T<Real>::Zero());

@@ -26,14 +26,15 @@ RestitutionLaw make_restitution(const ObstacleDefinition& obstacle, const Expres
 }  // namespace
 
 void set_restitution(const ObstacleDefinition& obstacle, const Symbols& constants, const SceneNumbers& numbers,
-                     World& world) {
+                     std::vector<World::Obstacle>& made, std::vector<std::string>& warnings) {
   if (!obstacle.restitution) return;
-  World::Obstacle& made = world.obstacles.back();
-  made.restitution = make_restitution(obstacle, *obstacle.restitution, constants, numbers);
-  made.restitution_where = obstacle.restitution->where();
+  for (World::Obstacle& each : made) {
+    each.restitution = make_restitution(obstacle, *obstacle.restitution, constants, numbers);
+    each.restitution_where = obstacle.restitution->where();
+  }
   if (obstacle.on_hit != OnHit::bounce)
-    world.warnings.push_back("obstacle '" + obstacle.name +
-                             "' has a restitution, which nothing needs: its on_hit is not \"bounce\"");
+    warnings.push_back("obstacle '" + obstacle.name +
+                       "' has a restitution, which nothing needs: its on_hit is not \"bounce\"");
 }
 
 }  // namespace trajet

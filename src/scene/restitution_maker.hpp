@@ -5,9 +5,9 @@
 
 namespace trajet {
 
-/// Gives the obstacle that the World has got last its restitution, a number or a formula of the speed of approach `u`.
-/// Throws InputError at what is wrong with it; the World warns of one that nothing needs.
+/// Gives the obstacles that a definition has become their restitution, a number or a formula of the speed of approach
+/// `u`. Throws InputError at what is wrong with it; `warnings` get a sentence on one that nothing needs.
 void set_restitution(const ObstacleDefinition& obstacle, const Symbols& constants, const SceneNumbers& numbers,
-                     World& world);
+                     std::vector<World::Obstacle>& made, std::vector<std::string>& warnings);
 
 }  // namespace trajet

@@ -12,6 +12,8 @@ class SceneNumbers {
  public:
   explicit SceneNumbers(const Symbols& constants) : constants_(constants) {}
 
+  const Symbols& constants() const { return constants_; }
+
   /// A finite number. `what` names it in messages: "radius of body 'ball'".
   double scalar(const Expression& value, const std::string& what) const;
   double positive(const Expression& value, const std::string& what) const;

@@ -82,6 +82,7 @@ class UnitCheck {
     for (const BodyDefinition& body : scene_.bodies) check_body(body);
     for (const ObstacleDefinition& obstacle : scene_.obstacles) {
       std::visit([this](const auto& shape) { check_shape(shape); }, obstacle.shape);
+      check(obstacle.rounding, kLength);
       check(obstacle.center, kLength);
       check(obstacle.velocity, kSpeed);
       check(obstacle.angular_velocity, kAngularVelocity);
@@ -132,6 +133,7 @@ class UnitCheck {
 
   void check_body(const BodyDefinition& body) const {
     std::visit([this](const auto& shape) { check_shape(shape); }, body.shape);
+    check(body.rounding, kLength);
     check(body.position, kLength);
     check(body.velocity, kSpeed);
     check(body.angular_velocity, kAngularVelocity);
@@ -175,6 +177,11 @@ class UnitCheck {
     check(capsule.radius, kLength);
     check(capsule.height, kLength);
   }
+  void check_shape(const ConeShape& cone) const {
+    check(cone.radius, kLength);
+    check(cone.height, kLength);
+  }
+  void check_shape(const EllipsoidShape& ellipsoid) const { check(ellipsoid.radii, kLength); }
   void check_shape(const SoccerBallShape& ball) const { check(ball.radius, kLength); }
   void check_shape(const HullShape& hull) const { check(hull.points, kLength); }
   void check_shape(const MeshShape& mesh) const { check(mesh.scale, kDimensionless); }
@@ -192,6 +199,22 @@ class UnitCheck {
   }
   void check_shape(const TriangleShape& triangle) const {
     for (const Expression* corner : {&triangle.a, &triangle.b, &triangle.c}) check(*corner, kLength);
+  }
+
+  void check_shape(const TerrainShape& terrain) const {
+    require_dimension(terrain.height, kLength, [this](std::string_view name) {
+      return name == "x" || name == "y" ? Measure::moving(kLength) : of(name);
+    });
+  }
+  void check_shape(const CompoundShape& compound) const {
+    for (const PartDefinition& part : compound.parts) {
+      std::visit([this](const auto& shape) { check_shape(shape); }, part.shape);
+      check(part.rounding, kLength);
+      check(part.position, kLength);
+      check_orientation(part.orientation);
+      check(part.mass, kMass);
+      check(part.density, kDensity);
+    }
   }
 
   void check_rate(const StateDefinition& state) const {

@@ -5,7 +5,11 @@
 #include <limits>
 #include <variant>
 
+#include "trajet/geom/cavity.hpp"
 #include "trajet/geom/distance.hpp"
+#include "trajet/geom/ellipsoid_distance.hpp"
+#include "trajet/geom/landscape.hpp"
+#include "trajet/geom/revolution_distance.hpp"
 #include "trajet/geom/triangle_surface.hpp"
 #include "trajet/text/shortest_text.hpp"
 
@@ -26,6 +30,25 @@ double gap(const Shape& shape, const Vector3& p) {
 }
 
 }  // namespace
+
+void check_fits(const World& world) {
+  for (const World::Body& body : world.bodies) {
+    const double radius = bounding_radius(body.solid);
+    for (const World::Obstacle& obstacle : world.obstacles) {
+      const std::string names = "body '" + body.name + "' and obstacle '" + obstacle.name + "'";
+      if (std::holds_alternative<Terrain>(obstacle.shape) && radius > 0.0)
+        throw InputError(
+            body.where,
+            names + ": a terrain is met by points only; for a body with extent make the ground " + "of shape \"mesh\"");
+      const auto* cavity = std::get_if<Cavity>(&obstacle.shape);
+      if (cavity == nullptr || !is_round(body.solid) || radius < largest_ball(*cavity)) continue;
+      throw InputError(body.where, names +
+                                       ": the ball is too large for the inside, whose walls are met by balls of a " +
+                                       "radius below " + shortest_text(largest_ball(*cavity)) +
+                                       " m only, their least " + "radius of curvature");
+    }
+  }
+}
 
 void check_starts(const World& world) {
   constexpr double kRounding = 1e-9;  // of the lengths that the gap is made of, and far above what they round to

@@ -4,6 +4,10 @@
 
 namespace trajet {
 
+/// Throws InputError where a body can never meet an obstacle: one with extent a terrain, a ball the walls of a cavity
+/// whose bends are narrower than it.
+void check_fits(const World& world);
+
 /// Throws InputError at a point or sphere that starts inside an obstacle, by more than what rounding leaves open: that
 /// much the run itself decides, which knows where the body goes.
 void check_starts(const World& world);

@@ -51,20 +51,23 @@ class WorldBuilder {
     world_.warnings = scene_.warnings;
     set_time();
     set_method(scene_.method, numbers_, world_);
-    world_.obstacles.reserve(scene_.obstacles.size());
     Symbols starting(&parameters_.symbols);
     starting.set_constant("t", world_.epoch);
     const SceneNumbers at_start(starting);
     for (const ObstacleDefinition& obstacle : scene_.obstacles) {
-      world_.obstacles.push_back(make_obstacle(obstacle, numbers_, at_start));
-      world_.obstacles.back().drive = make_drive(obstacle, parameters_.symbols, at_start, world_.epoch);
-      set_restitution(obstacle, parameters_.symbols, numbers_, world_);
-      world_.obstacles.back().color = obstacle.color;
+      std::vector<World::Obstacle> made = make_obstacles(obstacle, numbers_, at_start);
+      set_restitution(obstacle, parameters_.symbols, numbers_, made, world_.warnings);
+      const std::optional<World::Drive> drive = make_drive(obstacle, parameters_.symbols, at_start, world_.epoch);
+      for (World::Obstacle& each : made) {
+        each.drive = drive;
+        world_.obstacles.push_back(std::move(each));
+      }
     }
     find_dependencies();
     place_in_groups();
     for (std::size_t g = 0; g < world_.groups.size(); ++g) compile_group(static_cast<int>(g));
     check_masses();
+    check_fits(world_);
     check_starts(world_);
     check_that_method_suits(scene_, world_);
     for (const NamedExpression& closed_form : scene_.exact) compile_exact(closed_form);
@@ -218,7 +221,7 @@ class WorldBuilder {
                                             : law.inputs({velocity, velocity + 1, velocity + 2}));
     if (definition.acceleration && definition.force)
       throw InputError(definition.force->where(), "body '" + body.name + "' has both `acceleration` and `force`");
-    if (definition.force && !definition.mass && !definition.density)
+    if (definition.force && !definition.mass && !mass_from_solid(definition, numbers_))
       throw InputError(definition.force->where(), "body '" + body.name + "' has a `force` but no `mass`");
     if (definition.acceleration) {
       law.add_output(law.compile_vector(*definition.acceleration, own));
@@ -232,13 +235,13 @@ class WorldBuilder {
 
   ProgramBuilder::Value mass_of(const BodyDefinition& definition, const Symbols& own, ProgramBuilder& builder) const {
     if (definition.mass) return builder.compile_scalar(*definition.mass, own);
-    return builder.constant(*mass_from_density(definition, numbers_));
+    return builder.constant(*mass_from_solid(definition, numbers_));
   }
 
   void compile_mass(int index, int input_count) {
     const BodyDefinition& definition = scene_.bodies[static_cast<std::size_t>(index)];
     World::Body& body = world_.bodies[static_cast<std::size_t>(index)];
-    if (!definition.mass && !definition.density) return;
+    if (!mass_from_solid(definition, numbers_) && !definition.mass) return;
     ProgramBuilder mass(input_count);
     const Symbols symbols = group_symbols(body.group, mass);
     mass.add_output(mass_of(definition, own_symbols(body, symbols, mass), mass));

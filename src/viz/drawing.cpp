@@ -206,7 +206,7 @@ Drawing draw_body(const Look& look, const Pose& pose, const Camera& camera, Colo
   return drawing;
 }
 
-Drawing draw_faces(const std::vector<Face>& faces, const Camera& camera, Color color) {
+Drawing draw_faces(const std::vector<Face>& faces, const Camera& camera, Color color, bool from_front) {
   Drawing drawing{.line_color = mix(color, kBlack, 0.2)};
   std::vector<std::pair<double, Drawing::Polygon>> sorted;
   for (const Face& face : faces) {
@@ -217,6 +217,7 @@ Drawing draw_faces(const std::vector<Face>& faces, const Camera& camera, Color c
       polygon.corners.push_back(camera.project(corner));
       nearness += camera.nearness(corner) / static_cast<double>(face.corners.size());
     }
+    if (from_front && area(polygon.corners) <= 0.0) continue;
     drawing.nearness += nearness / static_cast<double>(faces.size());
     sorted.emplace_back(nearness, std::move(polygon));
   }

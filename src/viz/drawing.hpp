@@ -54,8 +54,9 @@ Drawing moved(Drawing drawing, const Vector2& by);
 /// A body as it stands. Lit from above; what faces away is not drawn. Of what has very many faces, or is to be drawn
 /// `small`, only the outline.
 Drawing draw_body(const Look& look, const Pose& pose, const Camera& camera, Color color, bool small = false);
-/// Flat pieces of any shape, lit and drawn from both sides, farther ones beneath.
-Drawing draw_faces(const std::vector<Face>& faces, const Camera& camera, Color color);
+/// Flat pieces of any shape, lit and drawn from both sides, farther ones beneath; of what is seen `from_front` only,
+/// not those that face away.
+Drawing draw_faces(const std::vector<Face>& faces, const Camera& camera, Color color, bool from_front = false);
 
 /// The data and the elements of a `plot` command, comma between them, that show a drawing; `name` is that of its data
 /// blocks. Picture coordinates are those of the plot.

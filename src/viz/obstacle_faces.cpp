@@ -1,9 +1,12 @@
 #include "obstacle_faces.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 #include <variant>
 
+#include "trajet/geom/cavity.hpp"
+#include "trajet/geom/shape_pictures.hpp"
 #include "trajet/geom/triangle_surface.hpp"
 
 namespace trajet::detail {
@@ -15,6 +18,8 @@ constexpr int kCircleSides = 48;
 constexpr double kLargestObstacle = 3.0;
 /// A plane across an axis is near if it is this far from the motion, against the motion's extent along the axis.
 constexpr double kNearPlane = 1.2;
+/// What of a terrain is this near to the motion, against its size, is shown.
+constexpr double kNearGround = 0.4;
 
 /// What of a polygon lies within a box, cut by one side after the other.
 std::vector<Vector3> clip(std::vector<Vector3> polygon, const Eigen::AlignedBox3d& box) {
@@ -52,12 +57,32 @@ std::vector<Face> faces_of(const Box& box, const Eigen::AlignedBox3d&) {
 /// A surface of very many triangles is drawn as the box around it.
 std::vector<Face> faces_of(const MeshSurface& surface, const Eigen::AlignedBox3d&) {
   constexpr int kMostTriangles = 4000;
-  const TriangleMesh& mesh = surface.triangles->mesh;
+  const TriangleMesh mesh = picture_of(surface);
   if (surface.triangles->size() <= kMostTriangles) return faces(mesh);
   Eigen::AlignedBox3d around;
   for (const Vector3& vertex : mesh.vertices) around.extend(vertex);
   const auto sides = faces(Box{around.center(), 0.5 * around.sizes(), Matrix3::Identity()});
   return {sides.begin(), sides.end()};
+}
+
+std::vector<Face> faces_of(const SolidOfRevolution& solid, const Eigen::AlignedBox3d&) {
+  return faces(placed(local_picture(solid), solid.center, solid.R_WB));
+}
+std::vector<Face> faces_of(const EllipsoidBody& ellipsoid, const Eigen::AlignedBox3d&) {
+  return faces(placed(local_picture(ellipsoid), ellipsoid.center, ellipsoid.R_WB));
+}
+
+/// Seen from inside.
+std::vector<Face> faces_of(const Cavity& cavity, const Eigen::AlignedBox3d&) {
+  std::vector<Face> inward = faces(cavity.walls->picture);
+  for (Face& face : inward) {
+    std::reverse(face.corners.begin(), face.corners.end());
+    face.normal = -face.normal;
+  }
+  return inward;
+}
+std::vector<Face> faces_of(const Terrain& terrain, const Eigen::AlignedBox3d& box) {
+  return faces(picture(terrain, Aabb{box.min(), box.max()}));
 }
 
 std::vector<Face> whole_faces(const Shape& shape, const Eigen::AlignedBox3d& box) {
@@ -90,10 +115,17 @@ Eigen::AlignedBox3d with_obstacles(const Eigen::AlignedBox3d& motion, const std:
   Eigen::AlignedBox3d box = motion;
   const double size = motion.sizes().maxCoeff();
   for (const World::Obstacle& obstacle : obstacles) {
-    if (std::holds_alternative<Plane>(obstacle.shape)) continue;
+    if (std::holds_alternative<Plane>(obstacle.shape) || std::holds_alternative<Terrain>(obstacle.shape)) continue;
     const Eigen::AlignedBox3d around = box_of(obstacle.shape, motion);
+    if (around.isEmpty()) continue;
     if (around.sizes().maxCoeff() <= kLargestObstacle * size) box.extend(around);
   }
+  // the ground beneath the motion
+  for (const World::Obstacle& obstacle : obstacles)
+    if (std::holds_alternative<Terrain>(obstacle.shape))
+      for (const Face& face : whole_faces(obstacle.shape, motion))
+        for (const Vector3& corner : face.corners)
+          if (motion.exteriorDistance(corner) <= kNearGround * size) box.extend(corner);
   const Eigen::AlignedBox3d without_planes = box;
   for (const World::Obstacle& obstacle : obstacles) {
     const auto* plane = std::get_if<Plane>(&obstacle.shape);

@@ -7,6 +7,8 @@
 #include <optional>
 
 #include "base64.hpp"
+#include "trajet/geom/cavity.hpp"
+#include "trajet/geom/shape_pictures.hpp"
 #include "trajet/geom/triangle_surface.hpp"
 #include "trajet/scene/driven_frame.hpp"
 
@@ -50,11 +52,26 @@ Json object(const Box& box) {
           {"axes", {array(R.col(0)), array(R.col(1)), array(R.col(2))}}};
 }
 
-Json object(const MeshSurface& surface) {
-  const TriangleMesh& mesh = surface.triangles->mesh;
+Json object(const TriangleMesh& mesh, bool is_closed) {
   Json shape = {{"kind", "mesh"}, {"vertices", Json::array()}, {"triangles", mesh.triangles}};
   for (const Vector3& vertex : mesh.vertices) shape["vertices"].push_back(array(vertex));
-  shape["closed"] = surface.triangles->is_closed;
+  shape["closed"] = is_closed;
+  return shape;
+}
+
+Json object(const MeshSurface& surface) { return object(picture_of(surface), surface.triangles->is_closed); }
+
+Json object(const SolidOfRevolution& solid) {
+  return object(placed(local_picture(solid), solid.center, solid.R_WB), true);
+}
+
+Json object(const EllipsoidBody& ellipsoid) {
+  return object(placed(local_picture(ellipsoid), ellipsoid.center, ellipsoid.R_WB), true);
+}
+
+Json object(const Cavity& cavity) {
+  Json shape = object(cavity.walls->picture, true);
+  shape["hollow"] = true;
   return shape;
 }
 
@@ -209,6 +226,22 @@ Json body_data(const World::Body& body, const World::Group& group) {
   return data;
 }
 
+/// The box around all ways.
+Aabb span_of(const MotionRecord& motion) {
+  Aabb box;
+  const World& world = motion.world();
+  for (const World::Body& body : world.bodies)
+    for (const MotionRecord::Piece& piece : motion.pieces(body.group)) {
+      constexpr int kParts = 8;  // enough that no bend of a long piece is missed
+      for (int i = 0; i <= kParts; ++i) {
+        const double t = piece.from + (piece.to - piece.from) * i / kParts;
+        const auto at = [&](int axis) { return piece.segment.value(body.slice().position_index() + axis, t); };
+        box = united(box, Vector3(at(0), at(1), at(2)));
+      }
+    }
+  return is_bounded(box) ? box : Aabb{Vector3(-1, -1, -1), Vector3(1, 1, 1)};
+}
+
 /// The way in which a run carries orientations, null where nothing turns.
 Json orientation_way(const World& world) {
   for (const World::Body& body : world.bodies)
@@ -228,7 +261,16 @@ void write_page_data(const PageRun& run, ScriptText& text) {
   for (const World::ExtraState& state : world.states)
     states.push_back({{"name", state.name}, {"group", state.group}, {"component", state.offset}});
   for (const World::Obstacle& obstacle : world.obstacles) {
-    Json shape = std::visit([](const auto& each) { return object(each); }, obstacle.shape);
+    const auto* cavity = std::get_if<Cavity>(&obstacle.shape);
+    if (cavity != nullptr && cavity->walls->picture.triangles.empty()) continue;  // of a room, the first wall shows all
+    Json shape = std::visit(
+        [&](const auto& each) {
+          if constexpr (std::is_same_v<std::decay_t<decltype(each)>, Terrain>)
+            return object(picture(each, span_of(run.motion)), false);
+          else
+            return object(each);
+        },
+        obstacle.shape);
     obstacles.push_back({{"name", obstacle.name}, {"shape", std::move(shape)}});
     if (obstacle.color) obstacles.back()["color"] = color_text(*obstacle.color);
     if (obstacle.drive) obstacles.back()["drive"] = drive_data(*obstacle.drive, world.duration, world.epoch);

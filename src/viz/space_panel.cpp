@@ -105,10 +105,12 @@ std::string SpacePanel::script(const Frame& frame, const FigureSize& size) const
   std::vector<Drawing> drawings;
   for (const World::Obstacle& obstacle : obstacles_) {
     const auto* ball = std::get_if<Sphere>(&obstacle.shape);
-    Drawing drawing = ball != nullptr
-                          ? draw_body({.ball_radius = ball->radius, .turns = true},
-                                      {0.0, ball->center, Matrix3::Identity()}, view.camera, obstacle_color(obstacle))
-                          : draw_faces(obstacle_faces(obstacle.shape, box), view.camera, obstacle_color(obstacle));
+    const bool is_hollow = std::holds_alternative<Cavity>(obstacle.shape);
+    Drawing drawing =
+        ball != nullptr
+            ? draw_body({.ball_radius = ball->radius, .turns = true}, {0.0, ball->center, Matrix3::Identity()},
+                        view.camera, obstacle_color(obstacle))
+            : draw_faces(obstacle_faces(obstacle.shape, box), view.camera, obstacle_color(obstacle), is_hollow);
     drawing.opacity = kObstacleOpacity;
     if (std::holds_alternative<Plane>(obstacle.shape))
       add(plot_elements(shifted(std::move(drawing)), fmt::format("plane{}", plot.size())));

@@ -3,7 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "trajet/geom/cavity.hpp"
 #include "trajet/geom/distance.hpp"
+#include "trajet/geom/ellipsoid_distance.hpp"
+#include "trajet/geom/landscape.hpp"
+#include "trajet/geom/revolution_distance.hpp"
 #include "trajet/geom/shapes.hpp"
 #include "trajet/portable.hpp"
 
@@ -72,10 +76,18 @@ Vector3T<T> closest_point(const Box& box, const Vector3T<T>& p) {
 
 /// The triangle of a surface that is nearest to p.
 Triangle nearest_triangle(const MeshSurface& surface, const Vector3& p);
+/// How far a surface has grown from its triangles.
+double growth(const MeshSurface& surface);
 
 template <class T>
 Vector3T<T> closest_point(const MeshSurface& surface, const Vector3T<T>& p) {
-  return closest_point(nearest_triangle(surface, Vector3(p.template cast<double>())), p);
+  const Triangle triangle = nearest_triangle(surface, Vector3(p.template cast<double>()));
+  const Vector3T<T> nearest = closest_point(triangle, p);
+  const T grown = T(growth(surface));
+  if (grown == T(0)) return nearest;
+  // outside the triangles along the way to p, within them along the face's normal
+  const Vector3T<T> way = p - nearest, normal = triangle.normal.cast<T>();
+  return nearest + grown * (way.dot(normal) > T(0) ? Vector3T<T>(way.normalized()) : normal);
 }
 
 }  // namespace trajet

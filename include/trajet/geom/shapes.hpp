@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <variant>
+#include <vector>
 
 #include "trajet/math/vector.hpp"
 
@@ -53,15 +54,48 @@ struct Box {
   Matrix3 R_WB;       ///< its columns are the box's axes in the world
 };
 
+/// A convex solid of revolution: all that is within `growth` of its core, which a polygon sweeps that turns about the
+/// axis. A cylinder is a turned rectangle, a cone a turned triangle, a capsule a stretch of the axis that has grown.
+struct SolidOfRevolution {
+  Vector3 center;  ///< the origin of its frame
+  Matrix3 R_WB;    ///< its columns are the axes of the frame in the world; the last is the axis of revolution
+  /// Corners of the core's half section: distance from the axis, >= 0, and height along it, m; from the axis to the
+  /// axis again, lower end first, the core on the left.
+  std::vector<Eigen::Vector2d> profile;
+  double growth;  ///< m, >= 0
+};
+
+/// A solid ellipsoid.
+struct EllipsoidBody {
+  Vector3 center;
+  Vector3 radii;  ///< along its own axes, m
+  Matrix3 R_WB;   ///< its columns are the axes in the world
+};
+
 struct SurfaceTriangles;
 
-/// A surface of triangles: what it encloses where it is closed, else thin and two-sided. `make_mesh_surface`
-/// (triangle_surface.hpp) makes it.
+/// A surface of triangles: what it encloses where it is closed, else thin and two-sided; a convex one may have grown,
+/// so that its edges are round. `make_mesh_surface` and `make_rounded_hull` (triangle_surface.hpp) make it.
 struct MeshSurface {
   std::shared_ptr<const SurfaceTriangles> triangles;
 };
 
-using Shape = std::variant<Plane, Disk, Rectangle, Triangle, Sphere, Box, MeshSurface>;
+struct CavityWalls;
+
+/// All but a room, a bowl or a pipe, in which bodies live. `make_*_cavity` (cavity.hpp) make it.
+struct Cavity {
+  std::shared_ptr<const CavityWalls> walls;
+};
+
+class Landscape;
+
+/// The ground beneath a height that is a function of x and y of a frame. For points. landscape.hpp says what it offers.
+struct Terrain {
+  std::shared_ptr<const Landscape> landscape;
+};
+
+using Shape = std::variant<Plane, Disk, Rectangle, Triangle, Sphere, Box, MeshSurface, SolidOfRevolution, EllipsoidBody,
+                           Cavity, Terrain>;
 
 /// `normal`: any length but zero.
 Plane make_plane(const Vector3& point, const Vector3& normal);
@@ -75,6 +109,14 @@ Triangle make_triangle(const Vector3& a, const Vector3& b, const Vector3& c);
 Sphere make_sphere(const Vector3& center, double radius);
 /// `size`: full edge lengths, > 0. `R_WB`: a rotation, to 1e-9 in every element of R^T R.
 Box make_box(const Vector3& center, const Vector3& size, const Matrix3& R_WB);
+/// Around z of the frame: from -height/2 to height/2. `radius`, `height` > 0. `R_WB` as of a box.
+SolidOfRevolution make_cylinder(const Vector3& center, const Matrix3& R_WB, double radius, double height);
+/// All that is within `radius` of the axis from -height/2 to height/2.
+SolidOfRevolution make_capsule(const Vector3& center, const Matrix3& R_WB, double radius, double height);
+/// With the centre of mass at `center`: the base of that radius at -height/4, the tip at 3/4 of the height.
+SolidOfRevolution make_cone(const Vector3& center, const Matrix3& R_WB, double radius, double height);
+/// `radii` > 0.
+EllipsoidBody make_ellipsoid(const Vector3& center, const Matrix3& R_WB, const Vector3& radii);
 
 /// A ball that contains a shape.
 struct BoundingBall {
@@ -87,5 +129,7 @@ BoundingBall bounding_ball(const Triangle& triangle);
 BoundingBall bounding_ball(const Sphere& sphere);
 BoundingBall bounding_ball(const Box& box);
 BoundingBall bounding_ball(const MeshSurface& surface);
+BoundingBall bounding_ball(const SolidOfRevolution& solid);
+BoundingBall bounding_ball(const EllipsoidBody& ellipsoid);
 
 }  // namespace trajet

@@ -37,6 +37,16 @@ struct Capsule {
   double half_height;  ///< of the stretch
 };
 
+/// Around z: the base at -height/4, the tip at 3/4 of the height.
+struct Cone {
+  double radius;  ///< of the base
+  double height;
+};
+
+struct Ellipsoid {
+  Vector3 radii;  ///< along x, y, z
+};
+
 /// A truncated icosahedron.
 struct SoccerBall {
   double radius;  ///< of its corners
@@ -59,8 +69,26 @@ struct Mesh {
   std::shared_ptr<const Polyhedron> polyhedron;
 };
 
+struct RoundedCore;
+
+/// A convex solid whose edges and corners are round: a smaller one that has grown. `make_rounded_*` (rounded_solid.hpp)
+/// make it.
+struct RoundedSolid {
+  std::shared_ptr<const RoundedCore> core;
+};
+
+struct CompoundParts;
+
+/// Several solids as one. `make_compound` (compound.hpp) makes it.
+struct Compound {
+  std::shared_ptr<const CompoundParts> parts;
+};
+
 /// z <= 0.
 struct HalfSpace {};
+
+/// All around a place where bodies live, without bounds: what a cavity and a terrain are made of.
+struct Surroundings {};
 
 /// Thin and two-sided, in the plane z = 0.
 struct RoundPlate {
@@ -74,8 +102,9 @@ struct TriangularPlate {
   Vector3 corners[3];  ///< counterclockwise seen from z
 };
 
-using Solid = std::variant<Point, Ball, Cuboid, Cylinder, Capsule, SoccerBall, Hull, Mesh, HalfSpace, RoundPlate,
-                           RectangularPlate, TriangularPlate>;
+using Solid =
+    std::variant<Point, Ball, Cuboid, Cylinder, Capsule, Cone, Ellipsoid, SoccerBall, Hull, Mesh, RoundedSolid,
+                 Compound, HalfSpace, Surroundings, RoundPlate, RectangularPlate, TriangularPlate>;
 
 /// The convex hull of points, moved to its centre of mass. Throws std::domain_error as `convex_hull` does.
 Hull make_hull(std::span<const Vector3> points);
@@ -90,7 +119,7 @@ struct CenteredMesh {
 /// Throws std::domain_error if the surface is said to be closed and encloses no volume.
 CenteredMesh make_mesh(TriangleMesh surface, bool is_closed);
 
-/// The distance of the farthest point from the origin; infinite for a half space.
+/// The distance of the farthest point from the origin; infinite for a half space and surroundings.
 double bounding_radius(const Solid& solid);
 
 /// Whether the solid is all that is within a distance of its origin, so that it has a contact where its centre comes
@@ -104,7 +133,7 @@ std::optional<VolumeProperties> volume_properties(const Solid& solid);
 Aabb bounds(const Solid& solid, const Vector3& p_WB, const Matrix3& R_WB);
 
 /// The surface in flat pieces, for pictures: what is round along an axis has 32 sides, within the solid. Nothing of
-/// points, balls and half spaces, and of what is too flat for a picture.
+/// points, balls and what has no bounds, and of what is too flat for a picture.
 TriangleMesh picture_mesh(const Solid& solid);
 
 }  // namespace trajet

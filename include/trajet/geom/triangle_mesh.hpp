@@ -19,6 +19,10 @@ struct TriangleMesh {
 /// Throws std::domain_error if fewer than four points span a volume or a coordinate is not finite.
 TriangleMesh convex_hull(std::span<const Vector3> points);
 
+/// What is left of a convex hull where all of its faces move inward by `depth` (m). Throws std::domain_error if nothing
+/// solid is left.
+TriangleMesh eroded_hull(const TriangleMesh& hull, double depth);
+
 /// The 60 corners of a truncated icosahedron, a soccer ball, at `radius` (m) around the origin; two of its pentagons
 /// are closest to the axes of the golden rectangles that span it.
 std::vector<Vector3> truncated_icosahedron(double radius);

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "trajet/geom/box_tree.hpp"
@@ -16,6 +17,7 @@ struct SurfaceTriangles {
   bool is_closed;     ///< it encloses matter, and its triangles look outward
   double spacing;     ///< m, the mean length of an edge
   BoxTree tree;       ///< over the triangles
+  double growth = 0.0;  ///< m: the surface is this far outside the triangles; only of what is closed and convex
 
   int size() const { return static_cast<int>(mesh.triangles.size()); }
   Triangle triangle(int index) const;
@@ -24,6 +26,10 @@ struct SurfaceTriangles {
 /// Joins vertices in one place, leaves triangles without area out, and turns neighbours to the same side, outward where
 /// the surface is closed. Throws std::domain_error if there is no triangle or a vertex is not finite.
 MeshSurface make_mesh_surface(const TriangleMesh& mesh);
+
+/// The convex hull of points with edges and corners rounded inside it: the triangles of a smaller hull, grown by
+/// `rounding` (m, > 0). Throws std::domain_error as `convex_hull` does, or if nothing is left of the smaller one.
+MeshSurface make_rounded_hull_surface(std::span<const Vector3> points, double rounding);
 
 /// How far inside the matter of a closed surface p is, negative, or else how far from the surface, m.
 double signed_distance(const MeshSurface& surface, const Vector3& p);

@@ -67,6 +67,13 @@ struct CylinderShape {
 struct CapsuleShape {
   Expression radius, height;  ///< m; along z; the height without the half spheres
 };
+/// Along z: the centre of mass at the origin, the base at -height/4, the tip at 3/4 of the height.
+struct ConeShape {
+  Expression radius, height;  ///< m
+};
+struct EllipsoidShape {
+  Expression radii;  ///< along x, y, z; m
+};
 struct SoccerBallShape {
   Expression radius;  ///< of the corners of the truncated icosahedron, m
 };
@@ -93,8 +100,17 @@ struct RectangleShape {
 struct TriangleShape {
   Expression a, b, c;  ///< corners, m
 };
-using ShapeDefinition = std::variant<PointShape, BallShape, CuboidShape, CylinderShape, CapsuleShape, SoccerBallShape,
-                                     HullShape, MeshShape, PlaneShape, DiskShape, RectangleShape, TriangleShape>;
+/// The ground beneath a height above the plane z = 0 of its frame.
+struct TerrainShape {
+  Expression height;  ///< m, a formula of x and y
+};
+struct PartDefinition;
+struct CompoundShape {
+  std::vector<PartDefinition> parts;
+};
+using ShapeDefinition = std::variant<PointShape, BallShape, CuboidShape, CylinderShape, CapsuleShape, ConeShape,
+                                     EllipsoidShape, SoccerBallShape, HullShape, MeshShape, PlaneShape, DiskShape,
+                                     RectangleShape, TriangleShape, TerrainShape, CompoundShape>;
 
 /// Exactly one of the four, or none for the identity.
 struct OrientationDefinition {
@@ -107,12 +123,24 @@ struct OrientationDefinition {
   SourceLocation where{};
 };
 
+/// A part of a compound: a shape that stands in the compound's own frame.
+struct PartDefinition {
+  ShapeDefinition shape = PointShape{};
+  std::optional<Expression> rounding{};    ///< m
+  Expression position = Vector3(0, 0, 0);  ///< of the origin of its shape's frame, m
+  OrientationDefinition orientation{};
+  std::optional<Expression> mass{};     ///< kg; or:
+  std::optional<Expression> density{};  ///< kg/m^3; neither: all parts have that of the body
+  SourceLocation where{};
+};
+
 /// A moving body. Its name is usable in every law as NAME.r, NAME.vx, ….
 struct BodyDefinition {
   std::string name;
-  /// Its centre of mass is the origin of the body's frame: hulls and meshes are moved there. Planes and what is thin
-  /// are no bodies.
+  /// Its centre of mass is the origin of the body's frame: hulls, meshes and compounds are moved there. Planes and what
+  /// is thin are no bodies.
   ShapeDefinition shape = PointShape{};
+  std::optional<Expression> rounding{};       ///< radius of the shape's edges and corners, inside it, m; none: sharp
   Expression position = Vector3(0, 0, 0);     ///< p_WB at the start, m
   Expression velocity = Vector3(0, 0, 0);     ///< v_WB at the start, m/s
   std::optional<Expression> acceleration{};   ///< m/s^2; or `force` with `mass`; neither: uniform motion
@@ -153,7 +181,10 @@ enum class UpAxis { y, z };
 /// Something that bodies meet: at rest, or moving as told, whatever hits it.
 struct ObstacleDefinition {
   std::string name;
-  ShapeDefinition shape;  ///< a ball, a cuboid, a plane, a disk, a rectangle or a triangle
+  ShapeDefinition shape;                 ///< any but a point and a soccer ball
+  std::optional<Expression> rounding{};  ///< radius of the shape's edges and corners, inside it, m; none: sharp
+  /// Hollow: bodies live inside. Of a ball, a cuboid, a cylinder, a capsule, an ellipsoid.
+  bool is_hollow = false;
   /// Where the origin of the shape's frame is, m; none: at that of the world. May be a formula of t.
   std::optional<Expression> center{};
   OrientationDefinition orientation{};  ///< of the shape's frame; its parts may be formulas of t

@@ -6,6 +6,7 @@
 
 #include "trajet/event/path.hpp"
 #include "trajet/event/polynomial_enclosure.hpp"
+#include "trajet/math/vector.hpp"
 
 namespace trajet::detail {
 

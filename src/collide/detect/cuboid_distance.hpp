@@ -41,19 +41,6 @@ class CuboidDistance {
   }
 
  private:
-  /// x - h above h, x + h below -h, else 0, with the rates that hold for each: it grows with x. Its rate jumps where it
-  /// is 0, but not that of its square, which is what counts: x - clamp(x) times its own rate is that times x'.
-  static IntervalJet overhang(const IntervalJet& x, double half) {
-    const auto beyond = [half](double at) { return at > half ? at - half : at < -half ? at + half : 0.0; };
-    const double lower = beyond(x[0].lower()), upper = beyond(x[0].upper());
-    IntervalJet w(Interval(lower == 0.0 ? 0.0 : next_below(lower), upper == 0.0 ? 0.0 : next_above(upper)));
-    const bool is_beyond = lower > 0.0 || upper < 0.0;
-    const bool is_within = lower == 0.0 && upper == 0.0;
-    w[1] = is_within ? Interval(0.0) : is_beyond ? x[1] : hull(x[1], 0.0);
-    w[2] = is_within ? Interval(0.0) : is_beyond ? x[2] : hull(x[2], 0.0);
-    return w;
-  }
-
   std::array<Coordinate, 3> coordinates_;
   Vector3 half_size_;
 };

@@ -31,6 +31,11 @@ ContactResult first_contact_with(const Triangle& triangle, const MovingBall& bal
 ContactResult first_contact_with(const Sphere& sphere, const MovingBall& ball, const ContactMemory& memory);
 ContactResult first_contact_with(const Box& box, const MovingBall& ball, const ContactMemory& memory);
 ContactResult first_contact_with(const MeshSurface& surface, const MovingBall& ball, const ContactMemory& memory);
+ContactResult first_contact_with(const SolidOfRevolution& solid, const MovingBall& ball, const ContactMemory& memory);
+ContactResult first_contact_with(const EllipsoidBody& ellipsoid, const MovingBall& ball, const ContactMemory& memory);
+ContactResult first_contact_with(const Cavity& cavity, const MovingBall& ball, const ContactMemory& memory);
+/// Points only.
+ContactResult first_contact_with(const Terrain& terrain, const MovingBall& point, const ContactMemory& memory);
 
 /// The first contact of a ball with a shape.
 ///
