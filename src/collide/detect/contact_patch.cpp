@@ -1,0 +1,144 @@
+#include "contact_patch.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "trajet/portable.hpp"
+
+namespace trajet::detail {
+namespace {
+
+using Point2 = Eigen::Vector2d;
+using Polygon = std::vector<Point2>;
+
+double cross(const Point2& a, const Point2& b) { return a.x() * b.y() - a.y() * b.x(); }
+
+/// Coordinates in the plane of contact; its normal, seen from, makes them right-handed.
+struct Plane2 {
+  Vector3 right = Vector3::UnitX();
+  Vector3 up = Vector3::UnitY();
+  explicit Plane2(const Vector3& normal) : right(normal.unitOrthogonal()), up(normal.cross(right)) {}
+  Point2 operator()(const Vector3& p) const { return {right.dot(p), up.dot(p)}; }
+  Vector3 operator()(const Point2& p, double height, const Vector3& normal) const {
+    return right * p.x() + up * p.y() + normal * height;
+  }
+};
+
+/// What of a core lies in its supporting plane.
+struct Flat {
+  Polygon corners{};  ///< counterclockwise; two of an edge, one of a vertex
+  Feature feature = Feature::vertex;
+};
+
+/// Corners of a convex polygon, in order around it.
+void sort_around(Polygon& p) {
+  Point2 middle = Point2::Zero();
+  for (const Point2& q : p) middle += q / static_cast<double>(p.size());
+  ranges::sort(p, [&](const Point2& a, const Point2& b) {
+    return std::atan2(a.y() - middle.y(), a.x() - middle.x()) < std::atan2(b.y() - middle.y(), b.x() - middle.x());
+  });
+}
+
+/// `direction`: in the core's frame; `place`: to the frame of the contact.
+template <class Place>
+Flat flat_part(const ConvexCore& core, const Vector3& direction, double margin, const Plane2& plane, Place&& place) {
+  Flat flat;
+  const CoreSupport farthest = support(core, direction);
+  if (core.is_spread()) {
+    // of a disk that lies in the plane every point is as far
+    const Matrix3& E = core.spreads[static_cast<std::size_t>(farthest.vertex)];
+    const bool is_flat = (E.transpose() * direction).norm() <= margin;
+    const Vector3 p = is_flat ? core.vertices[static_cast<std::size_t>(farthest.vertex)] : farthest.point;
+    flat.corners.push_back(plane(place(p)));
+    flat.feature = is_flat && !E.isZero(0.0) ? Feature::face : E.isZero(0.0) ? Feature::vertex : Feature::surface;
+    return flat;
+  }
+  for (const Vector3& v : core.vertices)
+    if (direction.dot(v) >= farthest.height - margin) flat.corners.push_back(plane(place(v)));
+  const std::size_t count = flat.corners.size();
+  if (count > 2) sort_around(flat.corners);
+  flat.feature = count > 2             ? Feature::face
+                 : core.rounding > 0.0 ? Feature::surface
+                 : count == 2          ? Feature::edge
+                                       : Feature::vertex;
+  return flat;
+}
+
+/// The part of a convex polygon, or stretch, to the left of the line from a to b, or within the margin of it.
+Polygon left_of(const Polygon& p, const Point2& a, const Point2& b, double margin) {
+  const Point2 d = (b - a).normalized();
+  const auto side = [&](const Point2& q) { return cross(d, q - a) + margin; };
+  Polygon kept;
+  const std::size_t n = p.size(), sides = n == 2 ? 1 : n;
+  if (n == 2 && side(p[0]) >= 0.0) kept.push_back(p[0]);
+  for (std::size_t i = 0; i < sides; ++i) {
+    const Point2 &q = p[i], &r = p[(i + 1) % n];
+    const double from = side(q), to = side(r);
+    if ((from < 0.0) != (to < 0.0)) kept.push_back(q + (r - q) * (from / (from - to)));
+    if (to >= 0.0) kept.push_back(r);
+  }
+  return kept;
+}
+
+Polygon shared(const Polygon& a, const Polygon& b, double margin) {
+  if (a.size() == 1) return a;
+  if (b.size() == 1) return b;
+  if (a.size() == 2 && b.size() == 2) {
+    const Point2 d = a[1] - a[0], e = b[1] - b[0];
+    const double sine = cross(d, e) / (d.norm() * e.norm());
+    // nearer to parallel the point where the lines cross says nothing
+    constexpr double kParallel = 1e-6;
+    if (std::abs(sine) > kParallel) {
+      const double s = std::clamp(cross(b[0] - a[0], e) / cross(d, e), 0.0, 1.0);
+      return {a[0] + s * d};
+    }
+    const double length = d.norm(), x = d.dot(b[0] - a[0]) / length, y = d.dot(b[1] - a[0]) / length;
+    const double from = std::clamp(std::min(x, y), 0.0, length), to = std::clamp(std::max(x, y), 0.0, length);
+    if (to - from <= margin) return {a[0] + d * (0.5 * (from + to) / length)};
+    return {a[0] + d * (from / length), a[0] + d * (to / length)};
+  }
+  const Polygon& clip = a.size() > 2 ? a : b;
+  Polygon rest = a.size() > 2 ? b : a;
+  for (std::size_t i = 0; i < clip.size() && !rest.empty(); ++i)
+    rest = left_of(rest, clip[i], clip[(i + 1) % clip.size()], margin);
+  return rest;
+}
+
+/// Corners within the margin of each other count once.
+void join_equal(Polygon& p, double margin) {
+  Polygon kept;
+  for (const Point2& q : p)
+    if (ranges::all_of(kept, [&](const Point2& k) { return (q - k).norm() > margin; })) kept.push_back(q);
+  p = kept;
+}
+
+}  // namespace
+
+ContactPatch contact_patch(const ConvexCore& A, const ConvexCore& B, const RelativePose& pose, const Vector3& normal,
+                           double margin) {
+  const Plane2 plane(normal);
+  const Flat of_b = flat_part(B, -(pose.R_AB.transpose() * normal), margin, plane,
+                              [&](const Vector3& p) { return Vector3(pose.p_AB + pose.R_AB * p); });
+  ContactPatch patch;
+  patch.of_b = of_b.feature;
+  Polygon common = of_b.corners;
+  double height = 0.0;
+  if (A.is_half_space) {
+    patch.of_a = Feature::face;
+  } else {
+    const Flat of_a = flat_part(A, normal, margin, plane, [](const Vector3& p) { return p; });
+    patch.of_a = of_a.feature;
+    height = support(A, normal).height + A.rounding;
+    common = shared(of_a.corners, of_b.corners, margin);
+    // features that miss each other by more than the margin: the corner that is nearest will do
+    if (common.empty()) common.push_back(of_b.corners.front());
+  }
+  join_equal(common, 2.0 * margin);
+  for (const Point2& p : common) {
+    patch.corners.push_back(plane(p, height, normal));
+    patch.point += patch.corners.back() / static_cast<double>(common.size());
+  }
+  return patch;
+}
+
+}  // namespace trajet::detail
