@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <memory>
 
 #include "mesh_file.hpp"
 
@@ -128,7 +129,9 @@ ObstacleDefinition read_obstacle(const TableReader& table) {
   if (kind.needs_center || (has_center && titled.has(kind.center)))
     obstacle.center = titled.vector(kind.center, kLength);
   obstacle.shape = kind.read(titled);
-  if (titled.has("orientation")) obstacle.orientation = read_orientation(titled.subtable("orientation"));
+  if (titled.has("orientation"))
+    obstacle.orientation =
+        std::make_shared<const OrientationDefinition>(read_orientation(titled.subtable("orientation")));
   obstacle.on_hit =
       std::array{OnHit::stop, OnHit::bounce, OnHit::pass}[table.choice("on_hit", kOnHit, 0, kPlannedOnHit)];
   if (table.has("restitution")) obstacle.restitution = table.scalar("restitution", kDimensionless);

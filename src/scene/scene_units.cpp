@@ -83,7 +83,7 @@ class UnitCheck {
     for (const ObstacleDefinition& obstacle : scene_.obstacles) {
       std::visit([this](const auto& shape) { check_shape(shape); }, obstacle.shape);
       check(obstacle.center, kLength);
-      check_orientation(obstacle.orientation);
+      if (obstacle.orientation) check_orientation(*obstacle.orientation);
       if (obstacle.restitution) require_dimension(*obstacle.restitution, kDimensionless, at_impact());
     }
     for (const StateDefinition& state : scene_.states) check_rate(state);

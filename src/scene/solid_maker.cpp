@@ -86,7 +86,7 @@ class FixedSolid {
         center_(definition.center ? numbers.vector(*definition.center, name_of_center(definition.shape))
                                   : Vector3(0, 0, 0)),
         is_moved_(definition.center.has_value()),
-        R_WB_(numbers.rotation(definition.orientation)),
+        R_WB_(definition.orientation ? numbers.rotation(*definition.orientation) : Matrix3::Identity()),
         is_turned_(!R_WB_.isIdentity(0.0)) {}
 
   World::Obstacle operator()(const PlaneShape& shape) const {

@@ -20,14 +20,14 @@ constexpr std::size_t kFew = 8;
 Encounters::Encounters(const World& world) : world_(world), bodies_(world.bodies.size()) {
   // the course's 3.1 and 3.2 know whole steps only
   const bool walks = world.obstacles.size() > kFew && world.locate == Locator::polynomial;
-  std::vector<Aabb> boxes;
-  for (std::size_t i = 0; i < world.obstacles.size(); ++i) {
-    const World::Obstacle& obstacle = world.obstacles[i];
-    const Aabb box = walks ? bounds(obstacle.solid, obstacle.p_WB, rotation_matrix(obstacle.q_WB)) : unbounded_box();
-    (is_bounded(box) ? in_tree_ : always_).push_back(static_cast<int>(i));
-    if (is_bounded(box)) boxes.push_back(box);
-  }
-  if (!boxes.empty()) tree_.emplace(boxes);
+  const auto box = [&](int index) {
+    const World::Obstacle& obstacle = world.obstacles[static_cast<std::size_t>(index)];
+    return walks ? bounds(obstacle.solid, obstacle.p_WB, rotation_matrix(obstacle.q_WB)) : unbounded_box();
+  };
+  for (int i = 0; i < static_cast<int>(world.obstacles.size()); ++i)
+    (is_bounded(box(i)) ? in_tree_ : always_).push_back(i);
+  if (!in_tree_.empty())
+    tree_.emplace(static_cast<int>(in_tree_.size()), [&](int i) { return box(in_tree_[static_cast<std::size_t>(i)]); });
 }
 
 Pair& Encounters::pair(PairId id) { return *ranges::find(around(id.body).pairs, id, &Pair::id); }

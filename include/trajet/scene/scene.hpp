@@ -156,11 +156,12 @@ struct ObstacleDefinition {
   ShapeDefinition shape;  ///< a ball, a cuboid, a plane, a disk, a rectangle or a triangle
   /// Where the origin of the shape's frame is, m; none: at that of the world.
   std::optional<Expression> center{};
-  OrientationDefinition orientation{};  ///< of the shape's frame
+  /// Of the shape's frame; none: that of the world. Of a hundred thousand obstacles few have one.
+  std::shared_ptr<const OrientationDefinition> orientation{};
   OnHit on_hit = OnHit::stop;
+  std::optional<RgbColor> color{};  ///< in pictures; none: grey
   /// 0..1, for bounce; may be a formula of `u`, the speed of approach along the normal, m/s; none: 1
   std::optional<Expression> restitution{};
-  std::optional<RgbColor> color{};  ///< in pictures; none: grey
   SourceLocation where{};
 };
 
