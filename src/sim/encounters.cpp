@@ -72,14 +72,23 @@ Aabb Encounters::swept(int body, const Course& course, double from, double to) c
   return grown(box, radius + kMargin * (radius + size));
 }
 
-std::optional<std::vector<int>> Encounters::near(const Aabb& swept) const {
+std::optional<std::vector<int>> Encounters::near(const Aabb& swept, std::size_t most) const {
   std::vector<int> found;
   const bool are_few = tree_->visit_overlapping(swept, [&](int index) {
     found.push_back(in_tree_[static_cast<std::size_t>(index)]);
-    return found.size() <= kFew;
+    return found.size() <= most;
   });
   if (!are_few) return std::nullopt;
   return found;
+}
+
+std::size_t Encounters::count_near(const Aabb& swept) const {
+  std::size_t count = 0;
+  tree_->visit_overlapping(swept, [&count](int) {
+    ++count;
+    return true;
+  });
+  return count;
 }
 
 void Encounters::follow(int body, const Course& course, double until) {
@@ -109,20 +118,17 @@ void Encounters::search(int body, const Course& course, double until) {
       to = std::min(to, last);
     }
     if (around.stride > 0.0) to = std::min(to, from + 2.0 * around.stride);
-    std::optional<std::vector<int>> candidates = near(swept(body, course, from, to));
+    std::optional<std::vector<int>> candidates = near(swept(body, course, from, to), kFew);
+    // in boxes where it is already, however short the piece
+    const std::size_t start_count = candidates ? 0 : count_near(swept(body, course, from, from));
+    const std::size_t most = start_count > kFew ? start_count + kFew : kFew;
+    if (most > kFew) candidates = near(swept(body, course, from, to), most);
     while (!candidates) {
       const double middle = from + 0.5 * (to - from);
       constexpr double kShortest = 1e-12;  // of the time: no shorter piece meets less
-      if (middle - from <= kShortest * std::abs(from) || middle == from) {
-        candidates.emplace();
-        tree_->visit_overlapping(swept(body, course, from, to), [&](int index) {
-          candidates->push_back(in_tree_[static_cast<std::size_t>(index)]);
-          return true;
-        });
-        break;
-      }
-      to = middle;
-      candidates = near(swept(body, course, from, to));
+      const bool is_shortest = middle - from <= kShortest * std::abs(from) || middle == from;
+      if (!is_shortest) to = middle;
+      candidates = near(swept(body, course, from, to), is_shortest ? in_tree_.size() : most);
     }
     around.stride = to - from;
     ranges::sort(*candidates);
