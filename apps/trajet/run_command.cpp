@@ -71,10 +71,12 @@ int run_command(const RunArguments& arguments) {
   if (!arguments.html.empty() && !page_unavailable().empty()) throw FileError(page_unavailable());
   std::optional<PlotFile> plot;
   if (!arguments.plot.empty()) plot.emplace(arguments.plot);
-  Scene scene = read_named_scene(arguments.scene);
-  apply(arguments.overrides, scene);
   // A wrong scene must not cost the user an earlier report: files are opened behind these lines.
-  const World world = make_world(scene);
+  const World world = [&] {
+    Scene scene = read_named_scene(arguments.scene);
+    apply(arguments.overrides, scene);
+    return make_world(scene);
+  }();
   if (!arguments.glb.empty()) check_animation(std::abs(world.duration), arguments.fps);
 
   std::optional<OutputFile> json, csv, html, glb;

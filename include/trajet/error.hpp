@@ -1,6 +1,6 @@
 #pragma once
 
-#include <memory>
+#include <atomic>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -9,25 +9,40 @@
 namespace trajet {
 
 /// The name of a text that a user wrote: of a file, or what else messages call it. Copies share it, so that a hundred
-/// thousand places know it at no cost.
+/// thousand places know it, each by one pointer.
 class TextName {
  public:
   TextName() = default;
   TextName(std::string name)  // NOLINT(google-explicit-constructor): a name is a text
-      : name_(name.empty() ? nullptr : std::make_shared<const std::string>(std::move(name))) {}
+      : shared_(name.empty() ? nullptr : new Shared{{1}, std::move(name)}) {}
   TextName(const char* name) : TextName(std::string(name)) {}  // NOLINT(google-explicit-constructor)
+  TextName(const TextName& other) noexcept : shared_(other.shared_) {
+    if (shared_ != nullptr) shared_->owners.fetch_add(1, std::memory_order_relaxed);
+  }
+  TextName(TextName&& other) noexcept : shared_(std::exchange(other.shared_, nullptr)) {}
+  TextName& operator=(TextName other) noexcept {
+    std::swap(shared_, other.shared_);
+    return *this;
+  }
+  ~TextName() {
+    if (shared_ != nullptr && shared_->owners.fetch_sub(1, std::memory_order_acq_rel) == 1) delete shared_;
+  }
 
   const std::string& str() const {
     static const std::string none;
-    return name_ ? *name_ : none;
+    return shared_ != nullptr ? shared_->name : none;
   }
   operator const std::string&() const { return str(); }  // NOLINT(google-explicit-constructor)
-  bool empty() const { return !name_; }
+  bool empty() const { return shared_ == nullptr; }
 
-  friend bool operator==(const TextName& a, const TextName& b) { return a.str() == b.str(); }
+  friend bool operator==(const TextName& a, const TextName& b) { return a.shared_ == b.shared_ || a.str() == b.str(); }
 
  private:
-  std::shared_ptr<const std::string> name_;
+  struct Shared {
+    std::atomic<long> owners;
+    std::string name;
+  };
+  Shared* shared_ = nullptr;
 };
 
 /// A place in a text that a user wrote. Lines and columns count from 1; 0 means unknown. Columns count bytes.

@@ -96,10 +96,10 @@ void EventWatch::turn(double t, const double* before, const double* rate_before,
   if (has_turned_) sign_ = -last_.direction;
 }
 
-void EventWatch::forget_unless_rising(double t, const double* q, const double* rate) {
+void EventWatch::forget_unless_rising(double t, const double* q, const double* rate_before, const double* rate) {
   if (!next_.found) return;
   double largest = 0.0;
-  for (const int i : inputs_) largest = std::max(largest, std::abs(rate[i]));
+  for (const int i : inputs_) largest = std::max({largest, std::abs(rate[i]), std::abs(rate_before[i])});
   if (rate_at(t, q, rate) > kStopped * largest) return;
   next_ = {};
   sign_ = -1;

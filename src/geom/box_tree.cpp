@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 #include <cstring>
 #include <limits>
 
@@ -12,50 +13,70 @@ namespace {
 /// Leaves of so many boxes are searched one after the other.
 constexpr std::uint32_t kLeafSize = 4;
 
+/// Of a tree of so many boxes.
+std::size_t node_count(std::uint32_t boxes) {
+  if (boxes <= kLeafSize) return 1;
+  const std::uint32_t half = boxes / 2;
+  const std::size_t lesser = node_count(half);
+  return 1 + lesser + (2 * half == boxes ? lesser : node_count(boxes - half));
+}
+
 }  // namespace
 
 /// Orders the boxes by halving.
 class BoxTree::Builder {
  public:
-  Builder(BoxTree& tree, std::span<const Aabb> boxes) : tree_(tree), boxes_(boxes) {
-    centers_.reserve(boxes.size());
-    for (std::uint32_t i = 0; i < boxes.size(); ++i) {
-      centers_.push_back((boxes[i].lower + boxes[i].upper).cast<float>());
-      if (is_bounded(boxes[i])) {
-        keys_.push_back(i);
+  Builder(BoxTree& tree, int count, const std::function<Aabb(int)>& box) : tree_(tree), box_(box) {
+    centers_.reserve(static_cast<std::size_t>(count));
+    keys_.reserve(static_cast<std::size_t>(count));
+    Aabb around;
+    for (int i = 0; i < count; ++i) {
+      const Aabb each = box(i);
+      centers_.push_back((each.lower + each.upper).cast<float>());
+      if (is_bounded(each)) {
+        keys_.push_back(static_cast<std::uint32_t>(i));
+        around = united(around, each);
       } else {
-        tree.unbounded_.push_back({boxes[i], i});
+        tree.unbounded_.push_back({each, static_cast<std::uint32_t>(i)});
       }
     }
     if (keys_.empty()) return;
+    tree.origin_ = 0.5 * around.lower + 0.5 * around.upper;
     tree.items_.reserve(keys_.size());
-    // Every leaf but a lone one holds at least two boxes, so that leaves and inner nodes are no more than the boxes.
-    tree.nodes_.reserve(keys_.size());
+    tree.nodes_.reserve(node_count(static_cast<std::uint32_t>(keys_.size())));
     build(0, static_cast<std::uint32_t>(keys_.size()));
-    tree.nodes_.shrink_to_fit();
   }
 
  private:
   /// Appends the nodes and the items of some keys; returns the box around them.
-  Aabb build(std::uint32_t first, std::uint32_t count) {
+  Box build(std::uint32_t first, std::uint32_t count) {
     const std::size_t own = tree_.nodes_.size();
     tree_.nodes_.push_back({{}, first, count});
-    Aabb box;
+    Box box;
+    box.lower.fill(std::numeric_limits<float>::infinity());
+    box.upper.fill(-std::numeric_limits<float>::infinity());
     if (count <= kLeafSize) {
       for (std::uint32_t i = first; i < first + count; ++i) {
-        tree_.items_.push_back({boxes_[index(keys_[i])], index(keys_[i])});
-        box = united(box, tree_.items_.back().box);
+        tree_.items_.push_back({tree_.box_around(box_(static_cast<int>(index(keys_[i])))), index(keys_[i])});
+        unite(box, tree_.items_.back().box);
       }
     } else {
       const std::uint32_t half = count / 2;
       halve(first, count, half);
-      box = build(first, half);
+      unite(box, build(first, half));
       tree_.nodes_[own].first = static_cast<std::uint32_t>(tree_.nodes_.size());
       tree_.nodes_[own].count = 0;
-      box = united(box, build(first + half, count - half));
+      unite(box, build(first + half, count - half));
     }
     tree_.nodes_[own].box = box;
     return box;
+  }
+
+  static void unite(Box& box, const Box& other) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      box.lower[i] = std::min(box.lower[i], other.lower[i]);
+      box.upper[i] = std::max(box.upper[i], other.upper[i]);
+    }
   }
 
   /// At the median of the centres along the axis on which they spread most. Equal centres keep the order of their
@@ -84,14 +105,28 @@ class BoxTree::Builder {
   }
 
   BoxTree& tree_;
-  std::span<const Aabb> boxes_;
+  const std::function<Aabb(int)>& box_;
   std::vector<Eigen::Vector3f> centers_;  // doubled
   std::vector<std::uint64_t> keys_;       // a centre's coordinate in the upper half, the index of the box in the lower
 };
 
-BoxTree::BoxTree(std::span<const Aabb> boxes) {
+BoxTree::BoxTree(std::span<const Aabb> boxes)
+    : BoxTree(static_cast<int>(boxes.size()), [boxes](int i) { return boxes[static_cast<std::size_t>(i)]; }) {
   assert(boxes.size() <= std::numeric_limits<std::int32_t>::max());
-  Builder(*this, boxes);
+}
+
+BoxTree::BoxTree(int count, const std::function<Aabb(int)>& box) { Builder(*this, count, box); }
+
+BoxTree::Box BoxTree::box_around(const Aabb& box) const {
+  constexpr float kInfinity = std::numeric_limits<float>::infinity();
+  Box result;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto axis = static_cast<Eigen::Index>(i);
+    // the next number out is beyond the rounding of the difference and of the conversion
+    result.lower[i] = std::nextafter(static_cast<float>(box.lower[axis] - origin_[axis]), -kInfinity);
+    result.upper[i] = std::nextafter(static_cast<float>(box.upper[axis] - origin_[axis]), kInfinity);
+  }
+  return result;
 }
 
 }  // namespace trajet

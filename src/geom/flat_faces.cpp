@@ -98,8 +98,10 @@ class Outline {
   }
   FaceOutline operator()(const Triangle& triangle) const {
     FaceOutline outline;
-    for (int i = 0; i < 3; ++i)
-      outline.edges.push_back({triangle.edge_outward[i], triangle.edge_outward[i].dot(triangle.corners[i])});
+    for (int i = 0; i < 3; ++i) {
+      const Vector3 outward = edge_outward(triangle, i);
+      outline.edges.push_back({outward, outward.dot(triangle.corners[i])});
+    }
     return outline;
   }
   FaceOutline operator()(const Box& box) const {

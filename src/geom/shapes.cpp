@@ -76,12 +76,12 @@ Triangle make_triangle(const Vector3& a, const Vector3& b, const Vector3& c) {
   if (!(cross.norm() > kLeastSine * longest * longest)) {
     throw std::domain_error("the corners of a triangle must not lie on a line");
   }
-  Triangle triangle{{a, b, c}, cross.stableNormalized(), {}};
-  for (int i = 0; i < 3; ++i) {
-    const Vector3 edge = triangle.corners[(i + 1) % 3] - triangle.corners[i];
-    triangle.edge_outward[i] = edge.cross(triangle.normal).stableNormalized();
-  }
-  return triangle;
+  return {{a, b, c}, cross.stableNormalized()};
+}
+
+Vector3 edge_outward(const Triangle& triangle, int i) {
+  const Vector3 edge = triangle.corners[(i + 1) % 3] - triangle.corners[i];
+  return edge.cross(triangle.normal).stableNormalized();
 }
 
 Sphere make_sphere(const Vector3& center, double radius) {

@@ -1,11 +1,12 @@
 #include "trajet/geom/triangle_mesh.hpp"
 
 #include <algorithm>
-#include <map>
 #include <numbers>
 #include <set>
 #include <stdexcept>
 #include <utility>
+
+#include "trajet/geom/vertex_joiner.hpp"
 
 namespace trajet {
 
@@ -31,16 +32,9 @@ std::vector<Vector3> truncated_icosahedron(double radius) {
 TriangleMesh closed_mesh(const TriangleMesh& mesh) {
   TriangleMesh result;
   std::vector<int> joined;
-  const auto less = [](const Vector3& a, const Vector3& b) {
-    return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end());
-  };
-  std::map<Vector3, int, decltype(less)> known(less);
-  for (const Vector3& vertex : mesh.vertices) {
-    if (!vertex.allFinite()) throw std::domain_error("the vertices must be finite");
-    const auto [place, is_new] = known.try_emplace(vertex, static_cast<int>(result.vertices.size()));
-    if (is_new) result.vertices.push_back(vertex);
-    joined.push_back(place->second);
-  }
+  VertexJoiner joiner;
+  for (const Vector3& vertex : mesh.vertices) joined.push_back(joiner.index(vertex));
+  result.vertices = joiner.take_vertices();
   std::set<std::pair<int, int>> edges;
   double volume = 0.0;
   for (const auto& triangle : mesh.triangles) {

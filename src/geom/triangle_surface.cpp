@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <cstring>
 #include <numbers>
+#include <span>
 #include <stdexcept>
 #include <utility>
 
+#include "mixed_bits.hpp"
 #include "trajet/geom/closest_point.hpp"
+#include "trajet/geom/vertex_joiner.hpp"
 #include "trajet/portable.hpp"
 
 namespace trajet {
@@ -18,46 +20,17 @@ using Corners = std::array<int, 3>;
 
 const Vector3& vertex(const TriangleMesh& mesh, int i) { return mesh.vertices[static_cast<std::size_t>(i)]; }
 
-/// A well-mixed number of 64 bits (the last steps of MurmurHash3).
-std::uint64_t mixed(std::uint64_t x) {
-  x = (x ^ (x >> 33)) * 0xff51afd7ed558ccdU;
-  x = (x ^ (x >> 33)) * 0xc4ceb9fe1a85ec53U;
-  return x ^ (x >> 33);
-}
-
-std::uint64_t hash(const Vector3& p) {
-  std::uint64_t sum = 0;
-  for (const double x : p) {
-    std::uint64_t bits;
-    const double value = x + 0.0;  // one zero
-    std::memcpy(&bits, &value, sizeof bits);
-    sum = mixed(sum ^ bits);
-  }
-  return sum;
-}
-
-/// Vertices in one place become one: the first of them. Keeps the order.
+/// Vertices in one place become one: the first of them. Keeps the order, leaves triangles without area out.
 TriangleMesh joined(const TriangleMesh& mesh) {
-  std::size_t slots = 16;
-  while (slots < 2 * mesh.vertices.size()) slots *= 2;
-  std::vector<int> table(slots, -1);
-  TriangleMesh result;
+  VertexJoiner joiner;
   std::vector<int> index;
   index.reserve(mesh.vertices.size());
-  for (const Vector3& p : mesh.vertices) {
-    if (!p.allFinite()) throw std::domain_error("the vertices must be finite");
-    std::size_t slot = hash(p) & (slots - 1);
-    while (table[slot] >= 0 && vertex(result, table[slot]) != p) slot = (slot + 1) & (slots - 1);
-    if (table[slot] < 0) {
-      table[slot] = static_cast<int>(result.vertices.size());
-      result.vertices.push_back(p);
-    }
-    index.push_back(table[slot]);
-  }
+  for (const Vector3& p : mesh.vertices) index.push_back(joiner.index(p));
+  TriangleMesh result{joiner.take_vertices(), {}};
   result.triangles.reserve(mesh.triangles.size());
   for (const Corners& corners : mesh.triangles) {
-    const auto joined = [&](std::size_t i) { return index[static_cast<std::size_t>(corners[i])]; };
-    const Corners own{joined(0), joined(1), joined(2)};
+    const auto corner = [&](std::size_t i) { return index[static_cast<std::size_t>(corners[i])]; };
+    const Corners own{corner(0), corner(1), corner(2)};
     const Vector3 ab = vertex(result, own[1]) - vertex(result, own[0]);
     const Vector3 ac = vertex(result, own[2]) - vertex(result, own[0]);
     constexpr double kLeastSine = 2e-12;  // what make_triangle takes for a triangle, whatever the rounding
@@ -73,8 +46,8 @@ bool has_no_rim(const TriangleMesh& mesh) {
   std::uint64_t forward[2] = {0, 0}, backward[2] = {0, 0};
   const auto add = [](std::uint64_t(&sums)[2], int from, int to) {
     const std::uint64_t edge = std::uint64_t{static_cast<std::uint32_t>(from)} << 32 | static_cast<std::uint32_t>(to);
-    sums[0] += mixed(edge);
-    sums[1] += mixed(~edge);
+    sums[0] += detail::mixed(edge);
+    sums[1] += detail::mixed(~edge);
   };
   for (const Corners& corners : mesh.triangles)
     for (std::size_t i = 0; i < 3; ++i) {
@@ -94,36 +67,61 @@ double six_volumes(const TriangleMesh& mesh) {
   return sum;
 }
 
+/// The side of a triangle, seen from the lesser of its vertices.
+struct Side {
+  int other;  ///< the greater vertex
+  int triangle;
+  bool is_forward;
+};
+
+/// The sides of all triangles in the order of their lesser vertices, then of the others: those of one edge are
+/// together. Calls `visit(sides)` for each lesser vertex.
+template <class Visit>
+void visit_sides(const TriangleMesh& mesh, const Visit& visit) {
+  const auto for_each_side = [&mesh](const auto& take) {
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+      for (std::size_t i = 0; i < 3; ++i) {
+        const int a = mesh.triangles[t][i], b = mesh.triangles[t][(i + 1) % 3];
+        take(static_cast<std::size_t>(std::min(a, b)), Side{std::max(a, b), static_cast<int>(t), a < b});
+      }
+  };
+  std::vector<std::uint32_t> end(mesh.vertices.size() + 1, 0);
+  for_each_side([&](std::size_t lesser, const Side&) { ++end[lesser + 1]; });
+  for (std::size_t v = 1; v < end.size(); ++v) end[v] += end[v - 1];
+  std::vector<Side> sides(3 * mesh.triangles.size());
+  for_each_side([&](std::size_t lesser, const Side& side) { sides[end[lesser]++] = side; });
+  std::size_t begin = 0;
+  for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
+    const std::span<Side> own(sides.data() + begin, end[v] - begin);
+    ranges::sort(own, {}, [](const Side& side) { return std::pair(side.other, side.triangle); });
+    visit(own);
+    begin = end[v];
+  }
+}
+
 /// Turns triangles so that those that share an edge with one other look to the same side, from the first one on.
 void turn_to_same_side(TriangleMesh& mesh) {
-  struct Side {
-    std::uint64_t edge;  // the lesser vertex in the upper half
-    int triangle;
-    bool is_forward;
-  };
-  std::vector<Side> sides;
-  sides.reserve(3 * mesh.triangles.size());
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
-    for (std::size_t i = 0; i < 3; ++i) {
-      const auto a = static_cast<std::uint32_t>(mesh.triangles[t][i]);
-      const auto b = static_cast<std::uint32_t>(mesh.triangles[t][(i + 1) % 3]);
-      sides.push_back({std::uint64_t{std::min(a, b)} << 32 | std::max(a, b), static_cast<int>(t), a < b});
-    }
-  ranges::sort(sides, {}, [](const Side& side) { return std::pair(side.edge, side.triangle); });
   struct Neighbour {
-    int triangle;
-    bool is_turned;  // against the other
+    int triangle = -1;       // none
+    bool is_turned = false;  // against the other
   };
-  std::vector<std::vector<Neighbour>> neighbours(mesh.triangles.size());
-  for (std::size_t i = 0; i + 1 < sides.size(); ++i) {
-    const bool is_pair = sides[i].edge == sides[i + 1].edge &&
-                         (i + 2 == sides.size() || sides[i + 2].edge != sides[i].edge) &&
-                         (i == 0 || sides[i - 1].edge != sides[i].edge);
-    if (!is_pair) continue;
-    const bool is_turned = sides[i].is_forward == sides[i + 1].is_forward;
-    neighbours[static_cast<std::size_t>(sides[i].triangle)].push_back({sides[i + 1].triangle, is_turned});
-    neighbours[static_cast<std::size_t>(sides[i + 1].triangle)].push_back({sides[i].triangle, is_turned});
-  }
+  std::vector<std::array<Neighbour, 3>> neighbours(mesh.triangles.size());
+  bool is_any_turned = false;
+  const auto add = [&](int triangle, const Neighbour& next) {
+    auto& known = neighbours[static_cast<std::size_t>(triangle)];
+    *ranges::find(known, -1, &Neighbour::triangle) = next;
+  };
+  visit_sides(mesh, [&](std::span<const Side> sides) {
+    for (std::size_t i = 0; i + 1 < sides.size(); ++i) {
+      const auto is_of_edge = [&](std::size_t j) { return j < sides.size() && sides[j].other == sides[i].other; };
+      if (!is_of_edge(i + 1) || is_of_edge(i + 2) || (i > 0 && is_of_edge(i - 1))) continue;
+      const bool is_turned = sides[i].is_forward == sides[i + 1].is_forward;
+      add(sides[i].triangle, {sides[i + 1].triangle, is_turned});
+      add(sides[i + 1].triangle, {sides[i].triangle, is_turned});
+      is_any_turned = is_any_turned || is_turned;
+    }
+  });
+  if (!is_any_turned) return;
   std::vector<signed char> state(mesh.triangles.size(), 0);  // 1 as it was, -1 turned, 0 not seen
   std::vector<int> open;
   for (std::size_t first = 0; first < mesh.triangles.size(); ++first) {
@@ -134,6 +132,7 @@ void turn_to_same_side(TriangleMesh& mesh) {
       const auto t = static_cast<std::size_t>(open.back());
       open.pop_back();
       for (const Neighbour& next : neighbours[t]) {
+        if (next.triangle < 0) continue;
         signed char& its = state[static_cast<std::size_t>(next.triangle)];
         if (its != 0) continue;
         its = static_cast<signed char>(next.is_turned ? -state[t] : state[t]);
@@ -171,19 +170,18 @@ MeshSurface make_mesh_surface(const TriangleMesh& mesh) {
     for (Corners& corners : own.triangles) std::swap(corners[1], corners[2]);
 
   double length = 0.0;
-  std::vector<Aabb> boxes;
-  boxes.reserve(own.triangles.size());
-  for (const Corners& corners : own.triangles) {
-    Aabb box;
-    for (std::size_t i = 0; i < 3; ++i) {
-      box = united(box, vertex(own, corners[i]));
-      length += (vertex(own, corners[(i + 1) % 3]) - vertex(own, corners[i])).norm();
-    }
-    boxes.push_back(box);
-  }
+  for (const Corners& corners : own.triangles)
+    for (std::size_t i = 0; i < 3; ++i) length += (vertex(own, corners[(i + 1) % 3]) - vertex(own, corners[i])).norm();
   const double spacing = length / (3.0 * static_cast<double>(own.triangles.size()));
+  const auto box = [&own](int triangle) {
+    Aabb around;
+    for (const int corner : own.triangles[static_cast<std::size_t>(triangle)])
+      around = united(around, vertex(own, corner));
+    return around;
+  };
+  BoxTree tree(static_cast<int>(own.triangles.size()), box);
   return {
-      std::make_shared<const SurfaceTriangles>(SurfaceTriangles{std::move(own), is_closed, spacing, BoxTree(boxes)})};
+      std::make_shared<const SurfaceTriangles>(SurfaceTriangles{std::move(own), is_closed, spacing, std::move(tree)})};
 }
 
 MeshSurface make_rounded_hull_surface(std::span<const Vector3> points, double rounding) {

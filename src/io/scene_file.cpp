@@ -3,9 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <filesystem>
 #include <memory>
+#include <system_error>
 
 #include "scene_solids.hpp"
+#include "table_runs.hpp"
 #include "toml_document.hpp"
 #include "value_reader.hpp"
 
@@ -22,7 +25,16 @@ using detail::TomlEntry;
 /// Reads one scene: the document and what all of its tables share.
 class SceneReader {
  public:
-  SceneReader(std::string text, const std::string& file) : document_(std::move(text), file), formulas_(file) {
+  SceneReader(std::string text, const std::string& file)
+      : text_(without_byte_order_mark(std::move(text))),
+        obstacles_(obstacle_runs(text_)),
+        document_(obstacles_.runs.empty() ? text_ : obstacles_.rest, file),
+        formulas_(file) {
+    // with obstacles said otherwise too, it is for the reader of TOML to say whether they go together
+    if (!obstacles_.runs.empty() && document_.root().contains("obstacle")) {
+      obstacles_ = {};
+      document_ = TomlDocument(text_, file);
+    }
     collect_names();
   }
 
@@ -30,7 +42,7 @@ class SceneReader {
     constexpr std::array<std::string_view, 10> kKeys{"title", "up",       "parameters", "time",  "method",
                                                      "body",  "obstacle", "state",      "event", "exact"};
     constexpr std::array<std::string_view, 2> kUpAxes{"y", "z"};
-    const TableReader root = reader(document_.root(), "the scene", {document_.file(), 1, 1});
+    const TableReader root = reader(document_);
     root.check_keys(kKeys);
 
     Scene scene;
@@ -42,19 +54,45 @@ class SceneReader {
     scene.time = read_time(root.subtable("time").titled("[time]"));
     scene.method.where = root.where();
     if (root.has("method")) scene.method = read_method(root.subtable("method").titled("[method]"));
-    for (const TableReader& table : array_of_tables(root, "body")) scene.bodies.push_back(detail::read_body(table));
-    for (const TableReader& table : array_of_tables(root, "obstacle"))
-      scene.obstacles.push_back(detail::read_obstacle(table));
-    for (const TableReader& table : array_of_tables(root, "state")) scene.states.push_back(read_state(table));
-    for (const TableReader& table : array_of_tables(root, "event")) scene.events.push_back(read_event(table));
+    for (const TableReader& table : array_of_tables(document_, "body"))
+      scene.bodies.push_back(detail::read_body(table));
+    read_obstacles(scene);
+    for (const TableReader& table : array_of_tables(document_, "state")) scene.states.push_back(read_state(table));
+    for (const TableReader& table : array_of_tables(document_, "event")) scene.events.push_back(read_event(table));
     if (root.has("exact")) read_exact(root.subtable("exact").titled("[exact]"), "", scene);
     scene.tables = formulas_.tables();
     return scene;
   }
 
  private:
-  TableReader reader(const toml::table& table, std::string title, SourceLocation where) {
-    return {document_, table, std::move(title), std::move(where), formulas_};
+  static std::string without_byte_order_mark(std::string text) {
+    constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
+    if (text.starts_with(kByteOrderMark)) text.erase(0, kByteOrderMark.size());
+    return text;
+  }
+
+  /// The obstacles of a scene that has many of them; else nothing.
+  static detail::TableRuns obstacle_runs(std::string_view text) {
+    constexpr std::size_t kTablesARun = 256;
+    detail::TableRuns cut = detail::cut_table_runs(text, "obstacle", kTablesARun);
+    return cut.table_count > kTablesARun ? cut : detail::TableRuns();
+  }
+
+  /// All of a document.
+  TableReader reader(const TomlDocument& document) {
+    return {document, document.root(), "the scene", {document.file(), 1, 1}, formulas_};
+  }
+
+  /// Those of the document, then those that were cut out of it.
+  void read_obstacles(Scene& scene) {
+    scene.obstacles.reserve(obstacles_.table_count);
+    const auto read = [&](const TomlDocument& document) {
+      for (const TableReader& table : array_of_tables(document, "obstacle"))
+        scene.obstacles.push_back(detail::read_obstacle(table));
+    };
+    read(document_);
+    for (const detail::TextStretch& run : obstacles_.runs)
+      read({std::string_view(text_).substr(run.begin, run.size), document_.file(), run.first_line});
   }
 
   /// They must be known before the first expression is read.
@@ -70,15 +108,17 @@ class SceneReader {
       for (const auto& [key, node] : *parameters) formulas_.add_name(key.str());
   }
 
-  std::vector<TableReader> array_of_tables(const TableReader& root, std::string_view key) {
+  std::vector<TableReader> array_of_tables(const TomlDocument& document, std::string_view key) {
+    const TableReader root = reader(document);
     std::vector<TableReader> readers;
     if (!root.has(key)) return readers;
     const std::string title = "[[" + std::string(key) + "]]";
     const toml::array* tables = root.table().get(key)->as_array();
     if (tables == nullptr) root.fail(key, "an array of tables expected, write " + title);
     for (const toml::node& node : *tables) {
-      if (!node.is_table()) throw InputError(document_.location(node), "a table expected, write " + title);
-      readers.push_back(reader(*node.as_table(), title, document_.location(node)));
+      const SourceLocation where = document.location(node);
+      if (!node.is_table()) throw InputError(where, "a table expected, write " + title);
+      readers.push_back({document, *node.as_table(), title, where, formulas_});
     }
     return readers;
   }
@@ -208,6 +248,8 @@ class SceneReader {
     return event;
   }
 
+  std::string text_;
+  detail::TableRuns obstacles_;  // empty where the document has them
   TomlDocument document_;
   detail::FormulaReader formulas_;
 };
@@ -219,6 +261,9 @@ std::string read_text(const std::string& path) {
   const std::unique_ptr<std::FILE, Close> file(std::fopen(path.c_str(), "rb"));
   if (file == nullptr) throw FileError("cannot open '" + path + "'");
   std::string text;
+  std::error_code unknown;
+  const auto size = std::filesystem::file_size(path, unknown);
+  if (!unknown) text.reserve(size);  // a pipe has none
   char block[16384];
   for (std::size_t count; (count = std::fread(block, 1, sizeof block, file.get())) > 0;) text.append(block, count);
   if (std::ferror(file.get()) != 0) throw FileError("cannot read '" + path + "'");

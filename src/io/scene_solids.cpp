@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <memory>
 
 #include "mesh_file.hpp"
 
@@ -192,7 +193,9 @@ ObstacleDefinition read_obstacle(const TableReader& table) {
   obstacle.rounding = titled.optional_scalar("rounding", kLength);
   if (titled.has("inside")) obstacle.is_hollow = titled.flag("inside");
   if (obstacle.is_hollow && obstacle.rounding) titled.fail("rounding", "the inside of a shape is not rounded");
-  if (titled.has("orientation")) obstacle.orientation = read_orientation(titled.subtable("orientation"));
+  if (titled.has("orientation"))
+    obstacle.orientation =
+        std::make_shared<const OrientationDefinition>(read_orientation(titled.subtable("orientation")));
   if (table.has("velocity")) obstacle.velocity = table.vector("velocity", kSpeed);
   if (table.has("angular_velocity")) obstacle.angular_velocity = table.vector("angular_velocity", kAngularVelocity);
   obstacle.on_hit =

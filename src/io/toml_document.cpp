@@ -39,18 +39,16 @@ Escape escape_at(std::string_view written, char first) {
 
 }  // namespace
 
-TomlDocument::TomlDocument(std::string text, std::string file) : text_(std::move(text)), file_(std::move(file)) {
-  constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
-  if (text_.starts_with(kByteOrderMark)) text_.erase(0, kByteOrderMark.size());
+TomlDocument::TomlDocument(std::string_view text, TextName file, int first_line)
+    : text_(text), file_(std::move(file)), first_line_(first_line) {
   line_offsets_.push_back(0);
   for (std::size_t i = 0; i < text_.size(); ++i)
     if (text_[i] == '\n') line_offsets_.push_back(i + 1);
   try {
-    root_ = toml::parse(text_, file_.str());
+    root_ = toml::parse(text_);
   } catch (const toml::parse_error& error) {
     const SourceLocation where = location(error.source().begin);
-    const std::string_view line =
-        std::string_view(text_).substr(line_offsets_[static_cast<std::size_t>(where.line) - 1]);
+    const std::string_view line = text_.substr(line_offsets_[static_cast<std::size_t>(where.line - first_line_)]);
     // "Error while parsing string: …", after whose colon stands what is wrong
     std::string fault(error.description());
     constexpr std::string_view kHead = "Error while parsing ";
@@ -71,13 +69,13 @@ std::size_t TomlDocument::offset(const toml::source_position& position) const {
 }
 
 SourceLocation TomlDocument::location(const toml::source_position& position) const {
-  if (position.line < 1 || position.line > line_offsets_.size()) return {file_, 1, 1};
+  if (position.line < 1 || position.line > line_offsets_.size()) return {file_, first_line_, 1};
   const std::size_t column = offset(position) - line_offsets_[position.line - 1];
-  return {file_, static_cast<int>(position.line), static_cast<int>(column) + 1};
+  return {file_, first_line_ + static_cast<int>(position.line) - 1, static_cast<int>(column) + 1};
 }
 
 Extended TomlDocument::exact_number(const toml::node& node, double number) const {
-  const std::string_view written = std::string_view(text_).substr(offset(node.source().begin));
+  const std::string_view written = text_.substr(offset(node.source().begin));
   std::string digits;
   for (const char c : written.substr(0, written.find_first_not_of("0123456789+-.eE_")))
     if (c != '_' && !(c == '+' && digits.empty())) digits += c;
@@ -88,7 +86,7 @@ Extended TomlDocument::exact_number(const toml::node& node, double number) const
 std::vector<TextPosition> TomlDocument::content_positions(const toml::value<std::string>& value) const {
   const std::string& content = value.get();
   const std::size_t begin = offset(value.source().begin);
-  const std::string_view written = std::string_view(text_).substr(begin);
+  const std::string_view written = text_.substr(begin);
   const bool is_multi_line = written.starts_with("\"\"\"") || written.starts_with("'''");
   const bool has_escapes = written.starts_with('"');
   std::size_t i = is_multi_line ? 3 : 1;

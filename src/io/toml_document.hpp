@@ -21,8 +21,9 @@ struct TextPosition {
 /// A parsed TOML text that knows where in the file everything stands.
 class TomlDocument {
  public:
-  /// Parses `text`; `file` names it in errors. Throws InputError where it is no TOML.
-  TomlDocument(std::string text, std::string file);
+  /// Parses `text`, which outlives the document; `file` names it in errors. `first_line`: the number in the file of its
+  /// first line. Throws InputError where it is no TOML.
+  TomlDocument(std::string_view text, TextName file, int first_line = 1);
 
   const toml::table& root() const { return root_; }
   const TextName& file() const { return file_; }
@@ -42,8 +43,9 @@ class TomlDocument {
   /// Offset in the text of a position that counts code points.
   std::size_t offset(const toml::source_position& position) const;
 
-  std::string text_;
+  std::string_view text_;
   TextName file_;
+  int first_line_;
   std::vector<std::size_t> line_offsets_;
   toml::table root_;
 };

@@ -1,39 +1,24 @@
 #include "trajet/law/expression.hpp"
 
-#include <algorithm>
+#include <array>
 #include <utility>
 
-#include "syntax.hpp"
+#include "formula.hpp"
 #include "trajet/portable.hpp"
-#include "trajet/text/shortest_text.hpp"
 
 namespace trajet {
 namespace {
 
 using detail::Formula;
+using detail::NumberFormula;
+using detail::ParsedFormula;
 using detail::SyntaxNode;
+using detail::VectorOfNumbers;
 
-SyntaxNode number_node(const ExtendedConstant& value, const SourceLocation& where) {
-  SyntaxNode node;
-  node.where = where;
-  node.value = value;
-  node.text = shortest_text(value.value);
-  return node;
-}
-
-Formula number_formula(const ExtendedConstant& value, const SourceLocation& where) {
-  return {number_node(value, where), where, shortest_text(value.value)};
-}
-
-Formula vector_formula(const SyntaxNode& x, const SyntaxNode& y, const SyntaxNode& z, const SourceLocation& where,
-                       std::string text) {
-  SyntaxNode node;
-  node.kind = SyntaxNode::Kind::vector;
-  node.where = where;
-  node.text = "[";
-  node.height = 1 + std::max({x.height, y.height, z.height});
-  node.children = {x, y, z};
-  return {std::move(node), where, std::move(text)};
+std::shared_ptr<const Formula> parsed(std::string_view text, const SourceLocation& where,
+                                      std::span<const std::string> dashed_names) {
+  return std::make_shared<const ParsedFormula>(detail::parse_formula(text, where, dashed_names), where,
+                                               std::string(text));
 }
 
 void collect_names(const SyntaxNode& node, std::vector<std::string>& names) {
@@ -54,70 +39,80 @@ void relocate(SyntaxNode& node, const std::function<SourceLocation(const SourceL
 
 }  // namespace
 
-Expression::Expression(detail::Formula formula) : formula_(std::make_shared<const Formula>(std::move(formula))) {}
-
-Expression::Expression(double value) : Expression(number_formula(value, {})) {}
+Expression::Expression(double value) : Expression(number(value, {})) {}
 
 Expression::Expression(const Vector3& value)
-    : Expression(vector_formula(
-          number_node(value.x(), {}), number_node(value.y(), {}), number_node(value.z(), {}), {},
-          "[" + shortest_text(value.x()) + ", " + shortest_text(value.y()) + ", " + shortest_text(value.z()) + "]")) {}
+    : Expression(std::make_shared<const VectorOfNumbers>(
+          std::array<ExtendedConstant, 3>{value.x(), value.y(), value.z()}, SourceLocation(), 0, 0)) {}
 
-Expression::Expression(const char* text) : Expression(detail::parse_formula(text, {}, {})) {}
+Expression::Expression(const char* text) : Expression(parsed(text, {}, {})) {}
 
-Expression::Expression(const std::string& text) : Expression(detail::parse_formula(text, {}, {})) {}
+Expression::Expression(const std::string& text) : Expression(parsed(text, {}, {})) {}
 
 Expression Expression::parse(std::string_view text, const SourceLocation& where,
                              std::span<const std::string> dashed_names) {
-  return Expression(detail::parse_formula(text, where, dashed_names));
+  return Expression(parsed(text, where, dashed_names));
 }
 
 Expression Expression::vector(const Expression& x, const Expression& y, const Expression& z) {
-  return Expression(vector_formula(x.root(), y.root(), z.root(), x.where(),
-                                   "[" + x.text() + ", " + y.text() + ", " + z.text() + "]"));
+  const SourceLocation where = x.where(), where_y = y.where(), where_z = z.where();
+  const auto stands_beside = [&](const SourceLocation& other) {
+    return other.line == where.line && other.file == where.file;
+  };
+  const std::array parts{x.numbers(), y.numbers(), z.numbers()};
+  const auto is_number = [](const Numbers& part) { return part.count == 1 && VectorOfNumbers::keeps(part.values[0]); };
+  if (ranges::all_of(parts, is_number) && stands_beside(where_y) && stands_beside(where_z))
+    return Expression(std::make_shared<const VectorOfNumbers>(
+        std::array{parts[0].values[0], parts[1].values[0], parts[2].values[0]}, where, where_y.column, where_z.column));
+  return Expression(std::make_shared<const ParsedFormula>(detail::vector_node(*x.tree(), *y.tree(), *z.tree(), where),
+                                                          where,
+                                                          "[" + x.text() + ", " + y.text() + ", " + z.text() + "]"));
 }
 
 Expression Expression::number(const ExtendedConstant& value, const SourceLocation& where) {
-  return Expression(number_formula(value, where));
+  return Expression(std::make_shared<const NumberFormula>(value, where));
 }
 
 Expression Expression::quantity(const ExtendedConstant& value, const Dimension& dimension,
                                 const SourceLocation& where) {
-  Formula formula = number_formula(value, where);
-  formula.root.dimension = dimension;
-  return Expression(std::move(formula));
+  SyntaxNode node = detail::number_node(value, where);
+  node.dimension = dimension;
+  const std::string text = node.text;
+  return Expression(std::make_shared<const ParsedFormula>(std::move(node), where, text));
 }
 
 Expression Expression::relocated(const std::function<SourceLocation(const SourceLocation&)>& place) const {
-  Formula formula = *formula_;
-  formula.where = place(formula.where);
-  relocate(formula.root, place);
-  return Expression(std::move(formula));
+  SyntaxNode root = *tree();
+  relocate(root, place);
+  return Expression(std::make_shared<const ParsedFormula>(std::move(root), place(where()), text()));
 }
 
 bool Expression::is_condition() const {
   using enum detail::Operation;
   constexpr detail::Operation kConditions[] = {less,      less_equal,  greater,    greater_equal, equal,
                                                not_equal, logical_and, logical_or, logical_not};
-  return root().kind == SyntaxNode::Kind::operation &&
-         ranges::find(kConditions, root().operation) != std::end(kConditions);
+  const std::shared_ptr<const SyntaxNode> root = tree();
+  return root->kind == SyntaxNode::Kind::operation &&
+         ranges::find(kConditions, root->operation) != std::end(kConditions);
 }
 
-const SourceLocation& Expression::where() const { return formula_->where; }
+SourceLocation Expression::where() const { return formula_->where(); }
 
-const std::string& Expression::text() const { return formula_->text; }
+std::string Expression::text() const { return formula_->text(); }
 
-const detail::SyntaxNode& Expression::root() const { return formula_->root; }
+Expression::Numbers Expression::numbers() const { return formula_->numbers(); }
+
+std::shared_ptr<const SyntaxNode> Expression::tree() const { return formula_->tree(formula_); }
 
 std::vector<std::string> Expression::names() const {
   std::vector<std::string> names;
-  collect_names(root(), names);
+  collect_names(*tree(), names);
   return names;
 }
 
 std::vector<Expression::TableUse> Expression::tables() const {
   std::vector<TableUse> tables;
-  collect_tables(root(), tables);
+  collect_tables(*tree(), tables);
   return tables;
 }
 

@@ -219,7 +219,7 @@ class Surveyor {
 }  // namespace
 
 Measure measure(const Expression& formula, const MeasureOfName& names) {
-  return Surveyor(names).measure(formula.root());
+  return Surveyor(names).measure(*formula.tree());
 }
 
 std::string dimension_fault(const Measure& measure, const Dimension& expected) {
@@ -231,8 +231,10 @@ std::string dimension_fault(const Measure& measure, const Dimension& expected) {
 }
 
 void require_dimension(const Expression& formula, const Dimension& expected, const MeasureOfName& names) {
+  if (formula.numbers().count > 0) return;  // numbers without units are of any dimension
   const Surveyor surveyor(names);
-  const SyntaxNode& root = formula.root();
+  const std::shared_ptr<const SyntaxNode> tree = formula.tree();
+  const SyntaxNode& root = *tree;
   surveyor.measure(root);  // its own contradictions first
   const auto check = [&](const SyntaxNode& node) {
     const std::string fault = dimension_fault(surveyor.measure(node), expected);

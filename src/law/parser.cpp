@@ -259,10 +259,11 @@ const FunctionInfo* find_function(std::string_view name) {
   return found == std::end(kFunctions) ? nullptr : found;
 }
 
-Formula parse_formula(std::string_view text, const SourceLocation& where, std::span<const std::string> dashed_names) {
+SyntaxNode parse_formula(std::string_view text, const SourceLocation& where,
+                         std::span<const std::string> dashed_names) {
   if (text.size() > kMaxLength)
     throw InputError(where, "an expression of more than " + std::to_string(kMaxLength) + " characters");
-  return {Parser(text, where, dashed_names).formula(), where, std::string(text)};
+  return Parser(text, where, dashed_names).formula();
 }
 
 }  // namespace trajet::detail

@@ -297,7 +297,7 @@ ProgramBuilder::ProgramBuilder(ProgramBuilder&&) noexcept = default;
 ProgramBuilder& ProgramBuilder::operator=(ProgramBuilder&&) noexcept = default;
 
 ProgramBuilder::Value ProgramBuilder::compile(const Expression& formula, const Symbols& symbols) {
-  return detail::Compiler(*graph_, symbols).compile(formula.root());
+  return detail::Compiler(*graph_, symbols).compile(*formula.tree());
 }
 
 ProgramBuilder::Value ProgramBuilder::compile_scalar(const Expression& formula, const Symbols& symbols) {
@@ -356,8 +356,11 @@ Program ProgramBuilder::build() const { return graph_->build(outputs_); }
 
 std::variant<ExtendedConstant, Symbols::ConstantVector> evaluate_constant(const Expression& formula,
                                                                           const Symbols& constants) {
+  const Expression::Numbers numbers = formula.numbers();
+  if (numbers.count == 1) return numbers.values[0];
+  if (numbers.count == 3) return Symbols::ConstantVector{numbers.values};
   detail::Graph graph(0);
-  const ProgramBuilder::Value value = detail::Compiler(graph, constants).compile(formula.root());
+  const ProgramBuilder::Value value = detail::Compiler(graph, constants).compile(*formula.tree());
   const auto number = [&](int i) { return graph.constant_value(value.nodes[static_cast<std::size_t>(i)]).value(); };
   if (!value.is_vector) return number(0);
   return Symbols::ConstantVector{number(0), number(1), number(2)};

@@ -75,13 +75,6 @@ struct SyntaxNode {
   int height = 1;  ///< levels of the tree below and including this node
 };
 
-/// A whole formula: what an Expression shares among its copies.
-struct Formula {
-  SyntaxNode root;
-  SourceLocation where;
-  std::string text;
-};
-
 /// A function of the language and how many arguments it takes.
 struct FunctionInfo {
   std::string_view name;
@@ -94,6 +87,6 @@ struct FunctionInfo {
 const FunctionInfo* find_function(std::string_view name);
 
 /// Parses a formula. Throws InputError that points at the offending token.
-Formula parse_formula(std::string_view text, const SourceLocation& where, std::span<const std::string> dashed_names);
+SyntaxNode parse_formula(std::string_view text, const SourceLocation& where, std::span<const std::string> dashed_names);
 
 }  // namespace trajet::detail

@@ -81,7 +81,7 @@ class DriveProgram {
 
 std::optional<World::Drive> make_drive(const ObstacleDefinition& obstacle, const Symbols& constants,
                                        const SceneNumbers& at_start, double epoch) {
-  const bool moves = changes(obstacle.center), turns = changes(obstacle.orientation);
+  const bool moves = changes(obstacle.center), turns = obstacle.orientation && changes(*obstacle.orientation);
   if (!moves && !turns && !obstacle.velocity && !obstacle.angular_velocity) return std::nullopt;
   const std::string of = " of obstacle '" + obstacle.name + "'";
   if (moves && obstacle.velocity)
@@ -98,8 +98,8 @@ std::optional<World::Drive> make_drive(const ObstacleDefinition& obstacle, const
     place += at_start.vector(*obstacle.velocity, "velocity" + of).cast<ProgramNumber>() * program.elapsed();
   NumberQuaternion turned = Quaternion::Identity().cast<ProgramNumber>();
   if (turns) {
-    const Quaternion start = at_start.orientation(obstacle.orientation, "orientation" + of);
-    turned = program.orientation(obstacle.orientation) * start.conjugate().cast<ProgramNumber>();
+    const Quaternion start = at_start.orientation(*obstacle.orientation, "orientation" + of);
+    turned = program.orientation(*obstacle.orientation) * start.conjugate().cast<ProgramNumber>();
     drive.turns = true;
   }
   if (obstacle.angular_velocity) {

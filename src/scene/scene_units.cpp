@@ -86,7 +86,7 @@ class UnitCheck {
       check(obstacle.center, kLength);
       check(obstacle.velocity, kSpeed);
       check(obstacle.angular_velocity, kAngularVelocity);
-      check_orientation(obstacle.orientation);
+      if (obstacle.orientation) check_orientation(*obstacle.orientation);
       if (obstacle.restitution) require_dimension(*obstacle.restitution, kDimensionless, at_impact());
     }
     for (const StateDefinition& state : scene_.states) check_rate(state);

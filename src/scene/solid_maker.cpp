@@ -23,7 +23,8 @@ class FixedSolid {
       : FixedSolid(numbers,
                    definition.center ? at_start.vector(*definition.center, name_of_center(definition.shape))
                                      : Vector3(0, 0, 0),
-                   at_start.rotation(definition.orientation), numbers.rounding(definition.rounding)) {
+                   definition.orientation ? at_start.rotation(*definition.orientation) : Matrix3(Matrix3::Identity()),
+                   numbers.rounding(definition.rounding)) {
     is_moved_ = definition.center.has_value();
     is_hollow_ = definition.is_hollow;
     bounces_ = definition.on_hit == OnHit::bounce;

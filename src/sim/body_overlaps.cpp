@@ -13,7 +13,10 @@
 namespace trajet {
 namespace {
 
-constexpr int kWindows = 64;
+constexpr double kWindows = 64.0;  // the shortest
+/// Windows grow where each group has fewer pieces in them, and are short again where so many wait to be looked at.
+constexpr std::size_t kFewPieces = 2;
+constexpr std::size_t kManyPieces = 16;
 /// A window in which a body may meet more others than that is halved, this often at most.
 constexpr std::size_t kCrowd = 8;
 constexpr int kWindowHalvings = 8;
@@ -43,7 +46,8 @@ double distance(const Aabb& a, const Aabb& b) {
 BodyOverlaps::BodyOverlaps(const World& world)
     : world_(world),
       direction_(world.direction()),
-      window_(std::abs(world.duration) / kWindows),
+      shortest_window_(std::abs(world.duration) / kWindows),
+      window_(shortest_window_),
       pieces_(world.groups.size()) {
   for (std::size_t i = 0; i < world.bodies.size(); ++i) {
     radii_.push_back(bounding_radius(world.bodies[i].solid));
@@ -72,7 +76,12 @@ void BodyOverlaps::add(const MotionPiece& piece) {
   std::deque<Piece>& pieces = pieces_[static_cast<std::size_t>(piece.group)];
   const bool was_behind = covered(pieces) < looked_to_ + window_;
   pieces.push_back({piece.segment, ahead(piece.from), ahead(piece.to)});
-  if (was_behind && covered(pieces) >= looked_to_ + window_) --behind_;
+  if (++held_ >= kManyPieces * pieces_.size() && window_ > shortest_window_) {
+    window_ = shortest_window_;
+    count_behind();
+  } else if (was_behind && covered(pieces) >= looked_to_ + window_) {
+    --behind_;
+  }
   while (behind_ == 0 && !found_) look_on(looked_to_ + window_);
 }
 
@@ -83,15 +92,30 @@ std::optional<BodyOverlaps::Overlap> BodyOverlaps::finish(double end_time) {
 }
 
 void BodyOverlaps::look_on(double to) {
+  is_crowded_ = false;
   look({looked_to_, to}, 0);
   looked_to_ = to;
+  adapt_window();
   for (std::deque<Piece>& pieces : pieces_)
-    while (!pieces.empty() && pieces.front().to < to) pieces.pop_front();
+    for (; !pieces.empty() && pieces.front().to < to; --held_) pieces.pop_front();
   count_behind();
 }
 
+void BodyOverlaps::adapt_window() {
+  std::size_t count = 0;
+  for (const std::deque<Piece>& pieces : pieces_)
+    count += static_cast<std::size_t>(ranges::lower_bound(pieces, looked_to_, {}, &Piece::from) - pieces.begin());
+  if (is_crowded_) {
+    window_ = std::max(shortest_window_, 0.5 * window_);
+  } else if (count < kFewPieces * pieces_.size()) {
+    window_ *= 2.0;
+  }
+}
+
 void BodyOverlaps::look(Span window, int halvings) {
+  ++trees_;
   std::vector<Aabb> boxes;
+  boxes.reserve(extended_.size());
   for (const int body : extended_) boxes.push_back(grown(swept(body, window), radii_[static_cast<std::size_t>(body)]));
   const BoxTree tree(boxes);
   struct Pair {
@@ -110,15 +134,20 @@ void BodyOverlaps::look(Span window, int halvings) {
       return pairs.size() <= most || halvings == kWindowHalvings;
     });
     if (are_few) continue;
+    is_crowded_ = true;
     const double middle = 0.5 * (window.from + window.to);
     look({window.from, middle}, halvings + 1);
     if (!found_) look({middle, window.to}, halvings + 1);
     return;
   }
+  // the shortest pieces are as short in long windows
+  const double length = (window.to - window.from) / shortest_window_;
+  const int further = std::max(0, static_cast<int>(std::lround(std::log2(length))));
   for (const auto [first, second] : pairs) {
     const Span span{window.from, found_ ? found_->ahead : window.to};
     const bool are_round = is_round(solid(first)) && is_round(solid(second));
-    const std::optional<double> time = first_overlap(first, second, span, are_round ? kRoundHalvings : kHalvings);
+    const std::optional<double> time =
+        first_overlap(first, second, span, further + (are_round ? kRoundHalvings : kHalvings));
     if (time) found_ = Found{*time, first, second};
   }
 }

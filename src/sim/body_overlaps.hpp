@@ -14,9 +14,10 @@ namespace trajet {
 /// since bodies do not meet each other.
 ///
 /// It reads the pieces of the motion, in windows of time that all bodies' pieces cover. In each, a tree over the boxes
-/// that the bodies sweep tells the pairs that may be near each other; for these the window is halved until the boxes
-/// around their centres are apart or the piece is short, and at its middle the solids themselves are compared. Overlaps
-/// that last for less than the shortest pieces may be missed.
+/// that the bodies sweep tells the pairs that may be near each other. Windows grow where bodies have few pieces in them
+/// and meet few others, so that each piece costs the logarithm of the number of bodies. For a pair the window is halved
+/// until the boxes around their centres are apart or the piece is short, and at its middle the solids themselves are
+/// compared. Overlaps that last for less than the shortest pieces may be missed.
 class BodyOverlaps {
  public:
   struct Overlap {
@@ -35,6 +36,9 @@ class BodyOverlaps {
   void add(const MotionPiece& piece);
   /// The first overlap of the run, which has ended at this time, s.
   std::optional<Overlap> finish(double end_time);
+
+  /// How many trees were made so far.
+  long trees() const { return trees_; }
 
  private:
   // Times are counted from the run's start in its direction, s.
@@ -58,6 +62,8 @@ class BodyOverlaps {
   const std::deque<Piece>& pieces_of(int body) const;
   const Piece& piece_at(int body, double time) const;
   void count_behind();
+  /// Makes the next window as long as suits what was found in the last one.
+  void adapt_window();
   /// Looks on up to this time and forgets what is before.
   void look_on(double to);
   void look(Span window, int halvings);
@@ -69,7 +75,11 @@ class BodyOverlaps {
 
   const World& world_;
   double direction_;
-  double window_;  // s, how long one is
+  double shortest_window_;   // s
+  double window_;            // s, how long the next one is
+  bool is_crowded_ = false;  // the last one had to be halved
+  std::size_t held_ = 0;     // pieces
+  long trees_ = 0;
   double looked_to_ = 0.0;
   std::vector<std::deque<Piece>> pieces_;  // of each group
   int behind_ = 0;                         // groups whose bodies' pieces do not cover the next window

@@ -170,7 +170,8 @@ void Course::restart_watches(const Instant& instant, bool is_held_anew) {
     const Eigen::VectorXd& before = begins ? instant.q : instant.before();
     watch.watch.restart(t, before.data(), instant.q.data(), rounding.data());
     if (watch.kind == Crossing::Kind::past_edge)
-      watch.watch.forget_unless_rising(t, instant.q.data(), rate(t, instant.q).data());
+      watch.watch.forget_unless_rising(t, instant.q.data(), free_rate(t, instant.before()).data(),
+                                       rate(t, instant.q).data());
   }
 }
 

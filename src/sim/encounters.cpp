@@ -20,19 +20,18 @@ constexpr std::size_t kFew = 8;
 Encounters::Encounters(const World& world) : world_(world), bodies_(world.bodies.size()) {
   // the course's 3.1 and 3.2 know whole steps only
   const bool walks = world.obstacles.size() > kFew && world.locate == Locator::polynomial;
-  std::vector<Aabb> boxes;
-  for (std::size_t i = 0; i < world.obstacles.size(); ++i) {
-    const World::Obstacle& obstacle = world.obstacles[i];
-    if (obstacle.drive) {
-      driven_.try_emplace(static_cast<int>(i), obstacle);
-      always_.push_back(static_cast<int>(i));
-      continue;
-    }
-    const Aabb box = walks ? bounds(obstacle.solid, obstacle.p_WB, rotation_matrix(obstacle.q_WB)) : unbounded_box();
-    (is_bounded(box) ? in_tree_ : always_).push_back(static_cast<int>(i));
-    if (is_bounded(box)) boxes.push_back(box);
+  const auto box = [&](int index) {
+    const World::Obstacle& obstacle = world.obstacles[static_cast<std::size_t>(index)];
+    const bool is_still = walks && !obstacle.drive;
+    return is_still ? bounds(obstacle.solid, obstacle.p_WB, rotation_matrix(obstacle.q_WB)) : unbounded_box();
+  };
+  for (int i = 0; i < static_cast<int>(world.obstacles.size()); ++i) {
+    const World::Obstacle& obstacle = world.obstacles[static_cast<std::size_t>(i)];
+    if (obstacle.drive) driven_.try_emplace(i, obstacle);
+    (is_bounded(box(i)) ? in_tree_ : always_).push_back(i);
   }
-  if (!boxes.empty()) tree_.emplace(boxes);
+  if (!in_tree_.empty())
+    tree_.emplace(static_cast<int>(in_tree_.size()), [&](int i) { return box(in_tree_[static_cast<std::size_t>(i)]); });
 }
 
 Pair& Encounters::pair(PairId id) { return *ranges::find(around(id.body).pairs, id, &Pair::id); }
@@ -80,14 +79,23 @@ Aabb Encounters::swept(int body, const Course& course, double from, double to) c
   return grown(box, radius + kMargin * (radius + size));
 }
 
-std::optional<std::vector<int>> Encounters::near(const Aabb& swept) const {
+std::optional<std::vector<int>> Encounters::near(const Aabb& swept, std::size_t most) const {
   std::vector<int> found;
   const bool are_few = tree_->visit_overlapping(swept, [&](int index) {
     found.push_back(in_tree_[static_cast<std::size_t>(index)]);
-    return found.size() <= kFew;
+    return found.size() <= most;
   });
   if (!are_few) return std::nullopt;
   return found;
+}
+
+std::size_t Encounters::count_near(const Aabb& swept) const {
+  std::size_t count = 0;
+  tree_->visit_overlapping(swept, [&count](int) {
+    ++count;
+    return true;
+  });
+  return count;
 }
 
 void Encounters::follow(int body, const Course& course, double until) {
@@ -117,20 +125,17 @@ void Encounters::search(int body, const Course& course, double until) {
       to = std::min(to, last);
     }
     if (around.stride > 0.0) to = std::min(to, from + 2.0 * around.stride);
-    std::optional<std::vector<int>> candidates = near(swept(body, course, from, to));
+    std::optional<std::vector<int>> candidates = near(swept(body, course, from, to), kFew);
+    // in boxes where it is already, however short the piece
+    const std::size_t start_count = candidates ? 0 : count_near(swept(body, course, from, from));
+    const std::size_t most = start_count > kFew ? start_count + kFew : kFew;
+    if (most > kFew) candidates = near(swept(body, course, from, to), most);
     while (!candidates) {
       const double middle = from + 0.5 * (to - from);
       constexpr double kShortest = 1e-12;  // of the time: no shorter piece meets less
-      if (middle - from <= kShortest * std::abs(from) || middle == from) {
-        candidates.emplace();
-        tree_->visit_overlapping(swept(body, course, from, to), [&](int index) {
-          candidates->push_back(in_tree_[static_cast<std::size_t>(index)]);
-          return true;
-        });
-        break;
-      }
-      to = middle;
-      candidates = near(swept(body, course, from, to));
+      const bool is_shortest = middle - from <= kShortest * std::abs(from) || middle == from;
+      if (!is_shortest) to = middle;
+      candidates = near(swept(body, course, from, to), is_shortest ? in_tree_.size() : most);
     }
     around.stride = to - from;
     ranges::sort(*candidates);

@@ -34,8 +34,9 @@ struct RelativeMotion {
 /// searches, on each body's current Segment.
 ///
 /// A few obstacles, and those without bounds, are searched over the whole Segment. Of many, the near ones are found by
-/// boxes: the Segment is walked piece by piece, each as long as its swept box meets few of them, and the walk ends at
-/// the first contact, whichever obstacle it is with. What is far away costs the logarithm of how much there is.
+/// boxes: the Segment is walked piece by piece, each as long as its swept box meets few of them, or few more than it
+/// begins in, and the walk ends at the first contact, whichever obstacle it is with. What is far away costs the
+/// logarithm of how much there is.
 class Encounters {
  public:
   explicit Encounters(const World& world);
@@ -91,8 +92,9 @@ class Encounters {
                                     double to);
   /// Searches a pair on the whole Segment.
   void search_whole(Pair& pair, const Course& course);
-  /// The bounded obstacles near a body's path between two times, if they are few.
-  std::optional<std::vector<int>> near(const Aabb& swept) const;
+  /// The bounded obstacles near a stretch of a body's path, if they are not more than `most`.
+  std::optional<std::vector<int>> near(const Aabb& swept, std::size_t most) const;
+  std::size_t count_near(const Aabb& swept) const;
   Aabb swept(int body, const Course& course, double from, double to) const;
 
   const World& world_;

@@ -17,6 +17,9 @@ namespace {
 /// A step this high, of the place and the size, is none.
 constexpr double kStep = 1e-12;
 
+/// Of a velocity, a part so small is none: far above rounding.
+constexpr double kNone = 1e-12;
+
 /// A point of a face a little ahead of where a body is: at an edge, in the face into which it moves.
 Vector3 ahead_of(const Vector3& point, const Vector3& velocity) {
   constexpr double kAhead = 1e-9;  // of the size of the coordinates
@@ -160,16 +163,21 @@ bool LastingContacts::slides_onto(PairId id, const Course& course, const Eigen::
   };
   if (ranges::any_of(course.contacts(), rests)) return true;
   // without a force it slides along a face and does not rest there
-  const std::optional<Vector3> normal = plane_normal(obstacle(id.obstacle).shape);
-  const bool is_driven = obstacle(id.obstacle).drive.has_value();
-  if (!normal || is_driven || !encounters_.pair(id).contact.memory.is_in_plane) return false;
+  const std::optional<Vector3> up = plane_normal(obstacle(id.obstacle).shape);
+  if (!up || obstacle(id.obstacle).drive) return false;
+  const ContactResult& met = encounters_.pair(id).contact;
   const int offset = body(id.body).offset;
-  const Vector3 place = q.segment<3>(offset);
+  const double radius = bounding_radius(body(id.body).solid);
+  const Vector3 position = q.segment<3>(offset), velocity = q.segment<3>(offset + 3);
+  const bool slides = radius == 0.0 ? met.memory.is_in_plane : std::abs(up->dot(velocity)) <= kNone * velocity.norm();
+  if (!slides) return false;
+  const Vector3 normal = radius > 0.0 && up->dot(met.normal) < 0.0 ? Vector3(-*up) : *up;
+  const Vector3 place = position - radius * normal;
   return ranges::any_of(encounters_.pairs(id.body), [&](const Pair& pair) {
     const World::Obstacle& left = obstacle(pair.id.obstacle);
-    if (pair.id == id || left.on_hit != OnHit::bounce || !is_flat_at(left.shape, place, *normal)) return false;
-    return (closest_point_of(left.shape, place) - place).norm() <= kStep * place.norm() &&
-           goes_on({id.body, pair.id.obstacle, offset, *normal, place, *normal}, id.obstacle, q);
+    if (pair.id == id || left.on_hit != OnHit::bounce || !is_flat_at(left.shape, place, normal)) return false;
+    return (closest_point_of(left.shape, place) - place).norm() <= kStep * (position.norm() + radius) &&
+           goes_on({id.body, pair.id.obstacle, offset, normal, place, normal}, id.obstacle, q);
   });
 }
 

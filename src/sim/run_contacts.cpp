@@ -40,6 +40,8 @@ std::string describe_restitution(const World::Obstacle& obstacle, double restitu
 
 void RunLoop::handle_contact(int index, const Pair& met) {
   Course& moving = course(index);
+  // what goes on from the face on which the body slides is nothing to hit, whatever else it meets at this instant
+  if (goes_on_sliding(index, met)) return;
   const Pair& pair = encounters_.pair(first_to_handle(world_, encounters_, met));
   const World::Body& body = body_of(pair);
   const World::Obstacle& obstacle = obstacle_of(pair);
@@ -68,11 +70,7 @@ void RunLoop::handle_contact(int index, const Pair& met) {
   Impact impact = describe(world_, pair, moving.state(time));
   impact.elapsed = time;
   if (is_hit(pair.contact) && obstacle.on_hit == OnHit::bounce) {
-    if (lasting_contacts_.slides_onto(pair.id, moving, moving.state(time))) {
-      encounters_.pass(pair.id, moving);
-      encounters_.search(pair.id.body, moving, moving.next().time);
-      return enqueue(index);
-    }
+    if (goes_on_sliding(index, pair)) return;
     if (goes_on_from_contact(index, pair, impact)) return enqueue(index);
     return bounce(index, pair, impact);
   }
@@ -88,6 +86,18 @@ void RunLoop::handle_contact(int index, const Pair& met) {
   encounters_.pass(pair.id, moving);
   for (const int each : moving.group().bodies) encounters_.search(each, moving, moving.next().time);
   enqueue(index);
+}
+
+bool RunLoop::goes_on_sliding(int index, const Pair& pair) {
+  Course& moving = course(index);
+  const bool is_met = pair.contact.status == ContactStatus::hit || pair.contact.status == ContactStatus::graze;
+  if (!is_met || obstacle_of(pair).on_hit != OnHit::bounce) return false;
+  if (!lasting_contacts_.slides_onto(pair.id, moving, moving.state(pair.contact.time))) return false;
+  const int body = pair.id.body;
+  encounters_.pass(pair.id, moving);
+  encounters_.search(body, moving, moving.next().time);
+  enqueue(index);
+  return true;
 }
 
 bool RunLoop::goes_on_from_contact(int index, const Pair& pair, const Impact& impact) {
@@ -191,8 +201,13 @@ bool RunLoop::rest(Instant& instant, const Pair& pair, const Impact& impact, dou
     return false;
   }
   PairId on = pair.id;
-  if (bounding_radius(body.solid) > 0.0 && moves_off(face_outline(obstacle.shape, impact.point, impact.normal),
-                                                     impact.position, instant.q.segment<3>(body.offset + 3))) {
+  // a velocity so much smaller than it was is what rounding leaves of one that was stopped
+  constexpr double kStopped = 1e-12;
+  Vector3 along = instant.q.segment<3>(body.offset + 3);
+  along -= along.dot(impact.normal) * impact.normal;
+  const bool is_stopped = along.norm() <= kStopped * impact.velocity_before.norm();
+  if (bounding_radius(body.solid) > 0.0 && !is_stopped &&
+      moves_off(face_outline(obstacle.shape, impact.point, impact.normal), impact.position, along)) {
     const RestingContact here{pair.id.body, pair.id.obstacle, body.offset, impact.normal, impact.point, impact.normal};
     const std::optional<PairId> next = lasting_contacts_.continuation(here, instant.q);
     if (!next) {

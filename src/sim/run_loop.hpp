@@ -61,6 +61,8 @@ class RunLoop {
   /// A time behind a contact's last at which the force surely points away from it: what has left then is not found in
   /// it again.
   double end_of_pull(const Course& moving, const Crossing& crossing) const;
+  /// Whether a face on which the body slides goes on on the obstacle that it meets; then the motion does.
+  bool goes_on_sliding(int course, const Pair& met);
   /// Whether a contact is the last one still, from which the body moves away by its law; then the motion goes on.
   bool goes_on_from_contact(int course, const Pair& pair, const Impact& impact);
   void bounce(int course, Pair pair, Impact impact);

@@ -4,9 +4,11 @@
 
 #include <cmath>
 #include <cstdlib>
+#include <optional>
 #include <random>
 
 #include "scene_run.hpp"
+#include "src/sim/body_overlaps.hpp"
 
 namespace trajet {
 namespace {
@@ -103,6 +105,45 @@ TEST(BodyOverlap, PointsAlwaysMissEachOther) {
   EXPECT_TRUE(overlaps(run_text("[time]\nend = 5\n" + body("one", "", {0, 0, 0}, {1, 0, 0}) +
                                 body("two", "", {2, 0, 0}, {0, 0, 0})))
                   .empty());
+}
+
+/// Looks for overlaps as a run does, and counts.
+class Looker : public RunObserver {
+ public:
+  RunWishes wishes() const override { return {.motion = true}; }
+  void begin(const World& world) override { overlaps_.emplace(world); }
+  void motion(const MotionPiece& piece) override {
+    ++pieces;
+    overlaps_->add(piece);
+  }
+  long trees(double end_time) {
+    EXPECT_FALSE(overlaps_->finish(end_time));
+    return overlaps_->trees();
+  }
+
+  long pieces = 0;
+
+ private:
+  std::optional<BodyOverlaps> overlaps_;
+};
+
+TEST(BodyOverlap, APieceOfMotionCostsNoMoreThanItsShareOfATree) {
+  constexpr int kBodies = 40;
+  std::string bodies;
+  for (int i = 0; i < kBodies; ++i)
+    bodies += body("b" + std::to_string(i), ball(0.1), Vector3(i, 0.0, 1.0 + 0.01 * i), Vector3::Zero()) +
+              "acceleration = [0, 0, -9.81]\n";
+  const std::string ground =
+      "[[obstacle]]\nname = \"ground\"\nshape = \"plane\"\npoint = [0, 0, 0]\nnormal = [0, 0, 1]\non_hit = "
+      "\"bounce\"\n";
+  Looker flying, bouncing;
+  run_text("[time]\nend = 8\n" + bodies, &flying);
+  // one Segment for each: windows double from an eighth of a second on
+  EXPECT_EQ(flying.pieces, kBodies);
+  EXPECT_LE(flying.trees(8.0), 7);
+  run_text("[time]\nend = 8\n" + bodies + ground, &bouncing);
+  EXPECT_GT(bouncing.pieces, 8 * kBodies);
+  EXPECT_LE(bouncing.trees(8.0), 7 + bouncing.pieces / kBodies);
 }
 
 }  // namespace

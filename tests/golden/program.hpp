@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <signal.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -48,6 +49,7 @@ struct ProgramResult {
   int exit_code = -1;  ///< 128 + signal if a signal ended it
   std::string out;
   std::string err;
+  long peak_kilobytes = 0;  ///< of memory that it used at once
 };
 
 /// Runs the program `trajet`. If `interrupt_after_line` is given, sends `signal` once that file has more than one line.
@@ -70,18 +72,19 @@ inline ProgramResult run_trajet(const std::vector<std::string>& arguments, const
     _exit(126);
   }
   int status = 0;
+  struct rusage usage = {};
   if (!interrupt_after_line.empty()) {
     const auto started = [&] { return read_text(interrupt_after_line).find('\n') != std::string::npos; };
     bool ended = false;
-    while (!started() && !(ended = waitpid(child, &status, WNOHANG) == child))
+    while (!started() && !(ended = wait4(child, &status, WNOHANG, &usage) == child))
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
     if (!ended) kill(child, signal);
-    if (!ended) waitpid(child, &status, 0);
+    if (!ended) wait4(child, &status, 0, &usage);
   } else {
-    waitpid(child, &status, 0);
+    wait4(child, &status, 0, &usage);
   }
   const int code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
-  return {code, read_text(out), read_text(err)};
+  return {code, read_text(out), read_text(err), usage.ru_maxrss};
 }
 
 }  // namespace trajet

@@ -101,7 +101,7 @@ mass = "10 - t"
   EXPECT_TRUE(body.force && body.mass && body.position_rate && !body.acceleration);
   const ObstacleDefinition& crate = scene.obstacles.at(0);
   EXPECT_EQ(crate.on_hit, OnHit::bounce);
-  EXPECT_EQ(number(*crate.orientation.angle_rad), 3.141592653589793);
+  EXPECT_EQ(number(*crate.orientation->angle_rad), 3.141592653589793);
   EXPECT_EQ(number(std::get<RectangleShape>(scene.obstacles.at(1).shape).height), 3.0);
   EXPECT_EQ(scene.states.at(0).rate.names(), std::vector<std::string>{"big-ball.vx"});
   const EventDefinition& event = scene.events.at(0);
@@ -135,7 +135,7 @@ TEST(SceneFile, TheOtherSpellingsAreRead) {
       "[[obstacle]]\nname = \"o\"\nshape = \"box\"\ncenter = [0,0,0]\nsize = [1,1,1]\n"
       "orientation = {axis = [0,0,1], angle = \"50 %\"}\n";
   const ObstacleDefinition turned = parse_scene(kTime + kBall + box, "s").obstacles.at(0);
-  EXPECT_EQ(number(*turned.orientation.angle_rad), 0.5);
+  EXPECT_EQ(number(*turned.orientation->angle_rad), 0.5);
   EXPECT_EQ(parse_scene(kTime + kBall + "[exact]\n\"ball.r\" = \"[t, 0, 0]\"\n", "s").exact.at(0).name, "ball.r");
   const std::string event = "[[event]]\nname = \"e\"\nwhen = \"ball.x\"\n";
   EXPECT_EQ(parse_scene(kTime + kBall + event + "action = {set = {ball.vx = 0}}", "s").events.at(0).set.at(0).name,

@@ -40,8 +40,9 @@ class EventWatch {
   /// Behind the restart by what was taken last: how fast the state changed before and changes now. Where that turns the
   /// program back or stops it, it is on the side that it came from, for however short a time, and may cross again.
   void turn(double t, const double* before, const double* rate_before, const double* q, const double* rate);
-  /// Behind a restart: a rising crossing that was to come at this time is none if the program does not rise.
-  void forget_unless_rising(double t, const double* q, const double* rate);
+  /// Behind a restart: a rising crossing that was to come at this time is none if the program does not rise. The state
+  /// changed by `rate_before` and changes by `rate` now.
+  void forget_unless_rising(double t, const double* q, const double* rate_before, const double* rate);
   /// Whether the last restart was such a turn.
   bool has_turned() const { return has_turned_; }
   /// Finds the first crossing on the Segment behind `from`, which lies on it; remembered until the watch moves on.

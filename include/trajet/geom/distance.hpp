@@ -149,7 +149,7 @@ T in_plane_gap(const Rectangle& rectangle, const Vector3T<T>& p) {
 template <class T>
 T in_plane_gap(const Triangle& triangle, const Vector3T<T>& p) {
   const auto beyond = [&](int i) {
-    return detail::dot(triangle.edge_outward[i], detail::difference(p, triangle.corners[i]));
+    return detail::dot(edge_outward(triangle, i), detail::difference(p, triangle.corners[i]));
   };
   return max(beyond(0), max(beyond(1), beyond(2)));
 }

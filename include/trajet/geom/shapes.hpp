@@ -37,9 +37,10 @@ struct Rectangle {
 struct Triangle {
   Vector3 corners[3];
   Vector3 normal;  ///< unit, right-handed with the order of the corners
-  Vector3
-      edge_outward[3];  ///< unit, in the plane, orthogonal to the edge from corner i to corner i + 1, pointing outward
 };
+/// The unit vector in the triangle's plane that is orthogonal to the edge from corner i to corner i + 1 and points
+/// outward.
+Vector3 edge_outward(const Triangle& triangle, int i);
 
 /// A solid ball.
 struct Sphere {

@@ -1,10 +1,12 @@
 #pragma once
 
+#include <array>
 #include <functional>
 #include <memory>
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "trajet/error.hpp"
@@ -16,7 +18,7 @@ namespace trajet {
 
 namespace detail {
 struct SyntaxNode;
-struct Formula;
+class Formula;
 }  // namespace detail
 
 /// A formula as a user wrote it: parsed, not yet bound to the meaning of its names. Cheap to copy.
@@ -45,9 +47,9 @@ class Expression {
   /// Whether its outermost operator is a comparison, `and`, `or` or `not`, so that it is 1 or 0.
   bool is_condition() const;
 
-  const SourceLocation& where() const;
+  SourceLocation where() const;
   /// The text it was parsed from, or an equivalent one.
-  const std::string& text() const;
+  std::string text() const;
   /// The names it uses, as written (`v0`, `sun.r`, `t`; not `pi`), each once, in order of appearance.
   std::vector<std::string> names() const;
 
@@ -59,10 +61,18 @@ class Expression {
   /// In order of appearance.
   std::vector<TableUse> tables() const;
 
-  const detail::SyntaxNode& root() const;
+  /// One number, or the three of a vector.
+  struct Numbers {
+    int count = 0;
+    std::array<ExtendedConstant, 3> values{};
+  };
+  /// The numbers without units that it is; none if it is any other formula.
+  Numbers numbers() const;
+
+  std::shared_ptr<const detail::SyntaxNode> tree() const;
 
  private:
-  explicit Expression(detail::Formula formula);
+  explicit Expression(std::shared_ptr<const detail::Formula> formula) : formula_(std::move(formula)) {}
   std::shared_ptr<const detail::Formula> formula_;
 };
 

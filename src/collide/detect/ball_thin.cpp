@@ -24,12 +24,12 @@ Vector3 edge_normal(const Rectangle& rectangle, const Vector3& position) {
   return q.dot(axis) < 0.0 ? Vector3(-axis) : axis;
 }
 Vector3 edge_normal(const Triangle& triangle, const Vector3& position) {
-  const auto beyond = [&](int i) { return triangle.edge_outward[i].dot(position - triangle.corners[i]); };
+  const auto beyond = [&](int i) { return edge_outward(triangle, i).dot(position - triangle.corners[i]); };
   int nearest = 0;
   for (int i = 1; i < 3; ++i) {
     if (beyond(i) > beyond(nearest)) nearest = i;
   }
-  return triangle.edge_outward[nearest];
+  return edge_outward(triangle, nearest);
 }
 
 /// Rounding of a position on the path at tau, and of its distances to a shape of that size.

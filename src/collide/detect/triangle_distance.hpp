@@ -17,7 +17,7 @@ class TriangleDistance {
       const Vector3& corner = triangle.corners[i];
       const Vector3 edge = triangle.corners[(i + 1) % 3] - corner;
       length_[i] = edge.norm();
-      past_[i] = Coordinate(path, triangle.edge_outward[i], corner);
+      past_[i] = Coordinate(path, edge_outward(triangle, static_cast<int>(i)), corner);
       along_[i] = Coordinate(path, edge / length_[i], corner);
     }
   }

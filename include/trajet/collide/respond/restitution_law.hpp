@@ -1,6 +1,6 @@
 #pragma once
 
-#include <optional>
+#include <memory>
 #include <utility>
 
 #include "trajet/law/program.hpp"
@@ -13,7 +13,7 @@ class RestitutionLaw {
   RestitutionLaw(double constant = 1.0)
       : constant_(constant) {}  // NOLINT(google-explicit-constructor): a number is one
   /// Its first input is not read, the second is u.
-  explicit RestitutionLaw(Program of_speed) : of_speed_(std::move(of_speed)) {}
+  explicit RestitutionLaw(Program of_speed) : of_speed_(std::make_shared<const Program>(std::move(of_speed))) {}
 
   bool is_constant(double value) const { return !of_speed_ && constant_ == value; }
   /// At speed u: it may lie outside of 0 and 1 where it is not constant.
@@ -23,7 +23,7 @@ class RestitutionLaw {
 
  private:
   double constant_ = 1.0;
-  std::optional<Program> of_speed_{};
+  std::shared_ptr<const Program> of_speed_{};  // of a hundred thousand obstacles few have one
 };
 
 }  // namespace trajet
