@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "trajet/geom/rounded_solid.hpp"
 #include "trajet/portable.hpp"
 
 namespace trajet {
@@ -113,6 +114,21 @@ struct MakeCore {
   }
   ConvexCore operator()(const Hull& hull) const { return hull_core(hull.polyhedron->surface); }
   ConvexCore operator()(const Mesh&) const { throw std::domain_error("a mesh is not convex"); }
+  ConvexCore operator()(const Compound&) const { throw std::domain_error("a compound is not convex"); }
+  ConvexCore operator()(const Surroundings&) const { throw std::domain_error("surroundings are not convex"); }
+  ConvexCore operator()(const Cone& cone) const {
+    return revolved({{0.0, 0.75 * cone.height}, {cone.radius, -0.25 * cone.height}}, 0.0);
+  }
+  ConvexCore operator()(const Ellipsoid& ellipsoid) const {
+    ConvexCore core;
+    core.vertices.push_back(Vector3::Zero());
+    core.spreads.emplace_back(ellipsoid.radii.asDiagonal());
+    return finished(core);
+  }
+  ConvexCore operator()(const RoundedSolid& rounded) const {
+    if (!rounded.core->profile.empty()) return revolved(rounded.core->profile, rounded.core->rounding);
+    return grown(rounded.core->corners, rounded.core->rounding);
+  }
   ConvexCore operator()(const HalfSpace&) const {
     ConvexCore core;
     core.is_half_space = true;
@@ -130,6 +146,42 @@ struct MakeCore {
   }
 
  private:
+  /// The hull of disks about z, each at a height (m) with a radius, grown.
+  static ConvexCore revolved(const std::vector<Eigen::Vector2d>& profile, double rounding) {
+    ConvexCore core;
+    core.rounding = rounding;
+    double lowest = kInfinity, highest = -kInfinity;
+    for (const Eigen::Vector2d& disk : profile) {
+      core.vertices.push_back({0, 0, disk[1]});
+      core.spreads.emplace_back(Vector3(disk[0], disk[0], 0).asDiagonal());
+      lowest = std::min(lowest, disk[1]);
+      highest = std::max(highest, disk[1]);
+    }
+    for (const double side : {1.0, -1.0}) {
+      const double end = side > 0.0 ? highest : lowest;
+      const auto is_flat = [&](const Eigen::Vector2d& disk) { return disk[1] == end && disk[0] > 0.0; };
+      if (ranges::any_of(profile, is_flat)) core.faces.push_back({{0, 0, side}, side * end, {}});
+    }
+    return finished(core);
+  }
+  /// A polytope, which may be flat or a stretch, grown.
+  static ConvexCore grown(const std::vector<Vector3>& corners, double rounding) {
+    ConvexCore core;
+    try {
+      core = hull_core(convex_hull(corners));
+    } catch (const std::domain_error&) {
+      // too flat for a hull: its corners alone hold all that its support needs
+      core = ConvexCore{.vertices = corners};
+    }
+    core.rounding = rounding;
+    core.faces_of.clear();
+    core.edges_of.clear();
+    std::vector<CoreFace> faces = std::move(core.faces);
+    core.edges.clear();
+    core.faces = std::move(faces);
+    core.reach = 0.0;
+    return finished(std::move(core));
+  }
   static ConvexCore stretch(double half_height, double radius) {
     ConvexCore core;
     core.vertices.push_back({0, 0, -half_height});

@@ -22,20 +22,38 @@ Json object(const std::vector<NamedValue>& values) {
   return json;
 }
 
+std::string_view name(Feature feature) {
+  switch (feature) {
+    case Feature::vertex:
+      return "vertex";
+    case Feature::edge:
+      return "edge";
+    case Feature::face:
+      return "face";
+    case Feature::surface:
+      break;
+  }
+  return "surface";
+}
+
 Json object(const Impact& impact) {
-  return {{"time", impact.time},
-          {"body", impact.body},
-          {"with", impact.with},
-          {"kind", name(impact.kind)},
-          {"point", array(impact.point)},
-          {"normal", array(impact.normal)},
-          {"position", array(impact.position)},
-          {"velocity_before", array(impact.velocity_before)},
-          {"velocity_after", array(impact.velocity_after)},
-          {"angular_velocity_before", array(impact.angular_velocity_before)},
-          {"angular_velocity_after", array(impact.angular_velocity_after)},
-          {"impulse", array(impact.impulse)},
-          {"time_error_bound", impact.time_error_bound}};
+  Json json = {{"time", impact.time},
+               {"body", impact.body},
+               {"with", impact.with},
+               {"kind", name(impact.kind)},
+               {"point", array(impact.point)},
+               {"normal", array(impact.normal)},
+               {"position", array(impact.position)},
+               {"velocity_before", array(impact.velocity_before)},
+               {"velocity_after", array(impact.velocity_after)},
+               {"angular_velocity_before", array(impact.angular_velocity_before)},
+               {"angular_velocity_after", array(impact.angular_velocity_after)},
+               {"impulse", array(impact.impulse)},
+               {"time_error_bound", impact.time_error_bound}};
+  if (!impact.touched) return json;
+  json["features"] = {name(impact.touched->of_body), name(impact.touched->of_obstacle)};
+  for (const Vector3& point : impact.touched->points) json["points"].push_back(array(point));
+  return json;
 }
 
 Json object(const EventRecord& event) {

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <span>
 #include <stdexcept>
 
 namespace trajet {
@@ -103,6 +104,13 @@ FramePose FramePath::pose(double t) const {
   // dq/dt = 1/2 (0, w_WB_W) q, and what lengthens q is not in the vector part
   pose.w_WB_W = (dq * q.conjugate()).vec() * (2.0 / norm2);
   return pose;
+}
+
+Range FramePath::range(int i, double from, double to) const {
+  if (is_at_rest()) return {rows_(i, 0), rows_(i, 0)};
+  const Eigen::VectorXd coefficients = rows_.row(i);
+  const std::span<const double> span(coefficients.data(), static_cast<std::size_t>(coefficients.size()));
+  return BernsteinForm(span, from - t0_, to - t0_).value_range();
 }
 
 double FramePath::point_error(double reach) const {

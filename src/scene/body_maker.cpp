@@ -76,13 +76,22 @@ void require_no_conflict(const BodyDefinition& definition) {
     throw InputError(d.force_point->where(), "body '" + d.name + "' has a `force_point` but no `force`");
 }
 
+/// Whether an impact can make the body turn: it has extent, a constant mass, and an inertia.
+bool is_turned_by_impacts(const BodyDefinition& d, const Solid& solid, const SceneNumbers& numbers) {
+  if (is_round(solid) || d.angular_acceleration || d.angular_acceleration_body) return false;
+  if (!mass_from_solid(d, numbers) && !(d.mass && numbers.knows(*d.mass))) return false;
+  return has_inertia(d) || volume_properties(solid).has_value();
+}
+
 std::optional<World::Rotation> rotation(const BodyDefinition& d, const Solid& solid, const SceneNumbers& numbers,
-                                        const MethodOptions& method) {
+                                        const MethodOptions& method, bool may_bounce) {
   const std::optional<Expression>* const laws[] = {&d.angular_acceleration, &d.angular_acceleration_body, &d.torque,
                                                    &d.torque_body, &d.force_point};
   const auto law = ranges::find_if(laws, [](const auto* each) { return each->has_value(); });
   const bool has_law = law != std::end(laws);
-  if (!has_law && !d.angular_velocity && !d.angular_velocity_body) return std::nullopt;
+  if (!has_law && !d.angular_velocity && !d.angular_velocity_body &&
+      !(may_bounce && is_turned_by_impacts(d, solid, numbers)))
+    return std::nullopt;
 
   World::Rotation result{.layout = {method.orientation}, .is_free = !has_law};
   if (!d.angular_acceleration && !d.angular_acceleration_body) result.inertia = inertia(d, solid, numbers);
@@ -107,7 +116,8 @@ std::optional<World::Rotation> rotation(const BodyDefinition& d, const Solid& so
 
 }  // namespace
 
-World::Body make_body(const BodyDefinition& definition, const SceneNumbers& numbers, const MethodOptions& method) {
+World::Body make_body(const BodyDefinition& definition, const SceneNumbers& numbers, const MethodOptions& method,
+                      bool may_bounce) {
   require_no_conflict(definition);
   if (has_inertia(definition)) given_inertia(definition, numbers);  // an error where it is none, even if nothing turns
   World::Body body;
@@ -115,7 +125,9 @@ World::Body make_body(const BodyDefinition& definition, const SceneNumbers& numb
   body.where = definition.where;
   body.solid = make_solid(definition, numbers);
   body.q_WB = numbers.orientation(definition.orientation, "orientation" + of_body(definition));
-  body.rotation = rotation(definition, body.solid, numbers, method);
+  body.rotation = rotation(definition, body.solid, numbers, method, may_bounce);
+  if (body.rotation && is_turned_by_impacts(definition, body.solid, numbers))
+    body.inertia = inertia(definition, body.solid, numbers);
   for (const NamedExpression& point : definition.points)
     body.points.push_back(
         {point.name, numbers.vector(point.value, "point '" + point.name + "'" + of_body(definition))});

@@ -9,8 +9,10 @@
 namespace trajet {
 
 /// The numbers of a body's definition, but for its place in the state: shape, inertia, orientation, points, how it
-/// turns. Throws InputError that points at the place.
-World::Body make_body(const BodyDefinition& definition, const SceneNumbers& numbers, const MethodOptions& method);
+/// turns. `may_bounce`: the scene has something to bounce off, which makes bodies turn that do not at the start. Throws
+/// InputError that points at the place.
+World::Body make_body(const BodyDefinition& definition, const SceneNumbers& numbers, const MethodOptions& method,
+                      bool may_bounce);
 
 /// The mass of an extended shape with a density, or of a compound's parts, kg; none if nothing says it. Throws
 /// InputError if both the parts and the body say it.

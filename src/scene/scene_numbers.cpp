@@ -5,9 +5,14 @@
 #include "trajet/law/program_builder.hpp"
 #include "trajet/math/euler_angles.hpp"
 #include "trajet/math/quaternion.hpp"
+#include "trajet/portable.hpp"
 #include "trajet/text/shortest_text.hpp"
 
 namespace trajet {
+
+bool SceneNumbers::knows(const Expression& formula) const {
+  return ranges::all_of(formula.names(), [&](const std::string& name) { return constants_.find(name) != nullptr; });
+}
 
 double SceneNumbers::scalar(const Expression& value, const std::string& what) const {
   const double number = evaluate_scalar(value, constants_);

@@ -14,6 +14,8 @@ class SceneNumbers {
 
   const Symbols& constants() const { return constants_; }
 
+  /// Whether a formula has a value: it needs constants only.
+  bool knows(const Expression& formula) const;
   /// A finite number. `what` names it in messages: "radius of body 'ball'".
   double scalar(const Expression& value, const std::string& what) const;
   double positive(const Expression& value, const std::string& what) const;

@@ -41,7 +41,10 @@ void check_fits(const World& world) {
             body.where,
             names + ": a terrain is met by points only; for a body with extent make the ground " + "of shape \"mesh\"");
       const auto* cavity = std::get_if<Cavity>(&obstacle.shape);
-      if (cavity == nullptr || !is_round(body.solid) || radius < largest_ball(*cavity)) continue;
+      if (cavity != nullptr && !is_round(body.solid))
+        throw InputError(body.where, names + ": the curved walls of what is hollow are met by points and balls only, " +
+                                         "the flat ones of a hollow box by all bodies");
+      if (cavity == nullptr || radius < largest_ball(*cavity)) continue;
       throw InputError(body.where, names +
                                        ": the ball is too large for the inside, whose walls are met by balls of a " +
                                        "radius below " + shortest_text(largest_ball(*cavity)) +

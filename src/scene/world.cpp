@@ -166,9 +166,11 @@ class WorldBuilder {
   }
 
   void place_in_groups() {
+    const bool may_bounce =
+        ranges::find(world_.obstacles, OnHit::bounce, &World::Obstacle::on_hit) != world_.obstacles.end();
     for (std::size_t i = 0; i < scene_.bodies.size(); ++i) {
       const BodyDefinition& definition = scene_.bodies[i];
-      World::Body body = make_body(definition, numbers_, scene_.method);
+      World::Body body = make_body(definition, numbers_, scene_.method, may_bounce);
       body.color = definition.color;
       body.group = group_of(static_cast<int>(i));
       body.offset = append(group(body.group).start, start_state(definition, body, numbers_));

@@ -18,6 +18,11 @@ Vector3 angular_velocity(const World::Body& body, const Eigen::VectorXd& q) {
   return body.rotation ? in_world(*body.rotation, q, q) : Vector3(0, 0, 0);
 }
 
+// d(R w_B)/dt = R dw_B/dt, since w x w = 0: the same transformation
+Vector3 angular_acceleration(const World::Body& body, const Eigen::VectorXd& q, const Eigen::VectorXd& dq) {
+  return body.rotation ? in_world(*body.rotation, q, dq) : Vector3(0, 0, 0);
+}
+
 BodyState body_state(const World::Body& body, const Eigen::VectorXd& q, const Eigen::VectorXd& dq) {
   BodyState state;
   state.body = body.name;
@@ -25,7 +30,6 @@ BodyState body_state(const World::Body& body, const Eigen::VectorXd& q, const Ei
   state.velocity = q.segment<3>(body.offset + 3);
   state.acceleration = dq.segment<3>(body.offset + 3);
   state.orientation = body.q_WB;
-  Vector3 angular_acceleration = Vector3::Zero();
   if (body.rotation) {
     const World::Rotation& rotation = *body.rotation;
     const double* part = q.data() + rotation.offset;
@@ -35,15 +39,14 @@ BodyState body_state(const World::Body& body, const Eigen::VectorXd& q, const Ei
                             ? from_rotation_matrix(nearest_rotation(state.rotation_matrix))
                             : rotation.layout.quaternion(part);
     state.angular_velocity = angular_velocity(body, q);
-    // d(R w_B)/dt = R dw_B/dt, since w x w = 0: the same transformation
-    angular_acceleration = in_world(rotation, q, dq);
   } else {
     state.rotation_matrix = rotation_matrix(body.q_WB);
   }
+  const Vector3 turning_faster = angular_acceleration(body, q, dq);
   const PointMotion center{state.position, dq.segment<3>(body.offset), state.acceleration};
   for (const World::Point& point : body.points) {
     const PointMotion motion =
-        point_motion(center, state.rotation_matrix, state.angular_velocity, angular_acceleration, point.p_B);
+        point_motion(center, state.rotation_matrix, state.angular_velocity, turning_faster, point.p_B);
     state.points.push_back({point.name, motion.position, motion.velocity, motion.acceleration});
   }
   return state;

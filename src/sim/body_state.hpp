@@ -10,5 +10,7 @@ BodyState body_state(const World::Body& body, const Eigen::VectorXd& q, const Ei
 
 /// The angular velocity of a body, world frame, rad/s.
 Vector3 angular_velocity(const World::Body& body, const Eigen::VectorXd& q);
+/// Its angular acceleration where the group's state has the rate dq, world frame, rad/s^2.
+Vector3 angular_acceleration(const World::Body& body, const Eigen::VectorXd& q, const Eigen::VectorXd& dq);
 
 }  // namespace trajet

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "frame_paths.hpp"
 #include "trajet/collide/detect/contact.hpp"
 #include "trajet/scene/driven_frame.hpp"
 #include "trajet/scene/world.hpp"
@@ -13,6 +14,8 @@ class DrivenObstacle {
   explicit DrivenObstacle(const World::Obstacle& obstacle);
 
   FrameMotion at(double t) { return frame_.at(t); }
+  /// Of the frame at its pivot with the axes of its solid, from `from` on towards `until`: see `driven_path`.
+  FramePath path(double from, double until) { return driven_path(frame_, obstacle_.q_WB, from, until); }
 
   /// The first contact of a ball of that radius between two times on its Segment, where its position begins at
   /// component `offset`: as `first_contact` of collide/detect, whose path is what the obstacle sees of the ball's. In

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <variant>
 
+#include "solid_bounce.hpp"
 #include "trajet/collide/detect/contact_table.hpp"
 #include "trajet/event/path.hpp"
 #include "trajet/geom/closest_point.hpp"
@@ -17,7 +18,7 @@ constexpr std::size_t kFew = 8;
 
 }  // namespace
 
-Encounters::Encounters(const World& world) : world_(world), bodies_(world.bodies.size()) {
+Encounters::Encounters(const World& world) : world_(world), bodies_(world.bodies.size()), solids_(world) {
   // the course's 3.1 and 3.2 know whole steps only
   const bool walks = world.obstacles.size() > kFew && world.locate == Locator::polynomial;
   const auto box = [&](int index) {
@@ -49,7 +50,11 @@ ContactResult Encounters::first_contact_until(const Pair& pair, const ContactMem
   ++searches_;
   const World::Body& body = world_.bodies[static_cast<std::size_t>(pair.id.body)];
   const World::Obstacle& obstacle = world_.obstacles[static_cast<std::size_t>(pair.id.obstacle)];
-  if (const auto driven = driven_.find(pair.id.obstacle); driven != driven_.end())
+  const auto driven = driven_.find(pair.id.obstacle);
+  if (!is_round(body.solid))
+    return solids_.first_contact(pair.id.body, pair.id.obstacle, course.segment(),
+                                 driven != driven_.end() ? &driven->second : nullptr, from, to, memory);
+  if (driven != driven_.end())
     return driven->second.first_contact(course.segment(), body.offset, bounding_radius(body.solid), from, to,
                                         world_.locate, memory);
   const PointPath path(course.segment(), body.offset);
@@ -177,6 +182,7 @@ void Encounters::bound_times(int body, Course& course) {
     if (contact.status != ContactStatus::hit && contact.status != ContactStatus::graze) continue;
     Eigen::VectorXd direction = Eigen::VectorXd::Zero(course.segment().dimension());
     direction.segment<3>(offset) = contact.normal;
+    if (contact.touched) direction = gap_gradient(world_, pair, course.state(contact.time));
     contact.time_error_bound =
         contact.time_resolution + contact.time_error(course.error_bound_along(direction, contact.time));
   }

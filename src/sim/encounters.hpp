@@ -7,6 +7,7 @@
 #include "course.hpp"
 #include "driven_obstacle.hpp"
 #include "instant.hpp"
+#include "solid_search.hpp"
 #include "trajet/collide/detect/contact.hpp"
 #include "trajet/geom/box_tree.hpp"
 #include "trajet/scene/world.hpp"
@@ -100,8 +101,9 @@ class Encounters {
   const World& world_;
   std::vector<Around> bodies_;
   std::map<int, DrivenObstacle> driven_;  // by the index of the obstacle
-  std::vector<int> always_;               // obstacles that are searched whatever is near
-  std::vector<int> in_tree_;              // the others, in the order of the tree
+  SolidSearch solids_;
+  std::vector<int> always_;   // obstacles that are searched whatever is near
+  std::vector<int> in_tree_;  // the others, in the order of the tree
   std::optional<BoxTree> tree_;
   long searches_ = 0;
 };

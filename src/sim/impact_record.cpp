@@ -26,6 +26,7 @@ Impact describe(const World& world, const Pair& pair, const Eigen::VectorXd& q) 
   impact.point = pair.contact.point;
   impact.normal = pair.contact.normal;
   impact.time_error_bound = pair.contact.time_error_bound;
+  impact.touched = pair.contact.touched;
   return impact;
 }
 

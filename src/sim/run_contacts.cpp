@@ -5,6 +5,7 @@
 #include "jump_derivative.hpp"
 #include "plastic_bounce.hpp"
 #include "run_loop.hpp"
+#include "solid_bounce.hpp"
 #include "ties.hpp"
 #include "trajet/collide/respond/restitution.hpp"
 #include "trajet/collide/sustain/rest.hpp"
@@ -47,10 +48,6 @@ void RunLoop::handle_contact(int index, const Pair& met) {
   const World::Obstacle& obstacle = obstacle_of(pair);
   const double time = met.contact.time;
   const std::string names = "'" + body.name + "' with '" + obstacle.name + "'";
-  if (!is_round(body.solid))
-    return fail(time, "contact unresolved: body '" + body.name + "' comes within " +
-                          "the reach of its farthest point from obstacle '" + obstacle.name +
-                          "'; impacts of solids other than points and spheres are not supported yet");
   if (pair.contact.status == ContactStatus::overlapping_at_start) {
     if (obstacle.on_hit == OnHit::pass) {
       // it starts inside: the first that happens is that it comes out
@@ -69,6 +66,8 @@ void RunLoop::handle_contact(int index, const Pair& met) {
   for (const int each : moving.group().bodies) encounters_.bound_times(each, moving);
   Impact impact = describe(world_, pair, moving.state(time));
   impact.elapsed = time;
+  if (!is_round(body.solid) && is_hit(pair.contact) && obstacle.on_hit != OnHit::stop)
+    return bounce_off(index, pair, impact);
   if (is_hit(pair.contact) && obstacle.on_hit == OnHit::bounce) {
     if (goes_on_sliding(index, pair)) return;
     if (goes_on_from_contact(index, pair, impact)) return enqueue(index);
@@ -176,6 +175,40 @@ void RunLoop::bounce(int index, Pair pair, Impact impact) {
   recorder_.sample(t, pair.id.body, SamplePhase::after);
   lasting_contacts_.record_until(t);
   if (stops) return stop();
+  advance(index);
+}
+
+void RunLoop::bounce_off(int index, Pair pair, Impact impact) {
+  Course& moving = course(index);
+  const World::Body& body = body_of(pair);
+  const World::Obstacle& obstacle = obstacle_of(pair);
+  const double t = impact.elapsed;
+  recorder_.sample(t, pair.id.body, SamplePhase::before);
+  const auto end = [&](const std::string& reason) {
+    recorder_.impact(impact);
+    fail(t, reason);
+  };
+  if (obstacle.on_hit == OnHit::pass)
+    return end("body '" + body.name + "' reaches obstacle '" + obstacle.name +
+               "', which lets it pass: how long a solid is within another is not computed yet");
+  if (const std::string reason = why_it_cannot_bounce(body); !reason.empty()) return end(reason);
+  Instant instant(moving, t);
+  const std::optional<FrameMotion> surface = encounters_.frame(pair.id.obstacle, t);
+  const NormalMotion before = normal_motion(world_, pair, surface, instant.before(), instant.rate());
+  const double speed = std::max(0.0, -before.speed);
+  const double restitution = obstacle.restitution.at(speed);
+  if (!(restitution >= 0.0 && restitution <= 1.0)) return fail(t, describe_restitution(obstacle, restitution, speed));
+  bounce_solid(world_, pair, surface, restitution, mass_of(body, t, instant.q), instant, impact);
+  recorder_.impact(impact);
+  warn_of_hidden_ties(world_, encounters_, pair, impact, moving, recorder_);
+  const NormalMotion after = normal_motion(world_, pair, surface, instant.q, instant.rate());
+  if (after.acceleration <= 0.0 &&
+      is_below_flight(std::max(0.0, after.speed), -after.acceleration, pair.contact.memory.tolerance))
+    return fail(t, "body '" + body.name + "' comes to rest on obstacle '" + obstacle.name +
+                       "': contact that lasts is not computed yet for solids that are no points or balls");
+  instant.memories.insert(instant.memories.begin(), {pair.id, rebounded(pair.contact.memory)});
+  go_on(index, instant);
+  recorder_.sample(t, pair.id.body, SamplePhase::after);
   advance(index);
 }
 

@@ -66,6 +66,8 @@ class RunLoop {
   /// Whether a contact is the last one still, from which the body moves away by its law; then the motion goes on.
   bool goes_on_from_contact(int course, const Pair& pair, const Impact& impact);
   void bounce(int course, Pair pair, Impact impact);
+  /// The same of a body that is no point or ball.
+  void bounce_off(int course, Pair pair, Impact impact);
   /// Begins a rest where the body, after its impact, will not fly any more; false if it cannot be followed.
   bool rest(Instant& instant, const Pair& pair, const Impact& impact, double restitution, bool is_hidden);
 

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 
+#include "trajet/math/bernstein.hpp"
 #include "trajet/math/quaternion.hpp"
 #include "trajet/math/vector.hpp"
 #include "trajet/math/window_polynomial.hpp"
@@ -41,6 +42,8 @@ class FramePath {
   double t1() const { return t1_; }
   bool is_at_rest() const { return rows_.cols() == 1; }
   FramePose pose(double t) const;
+  /// Encloses component i between two times.
+  Range range(int i, double from, double to) const;
   /// Bound of the distance by which the path is off at a point that is at most `reach` (m) from B's origin, m.
   double point_error(double reach) const;
 

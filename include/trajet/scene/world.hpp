@@ -55,6 +55,7 @@ struct World {
     Quaternion q_WB{1.0, 0.0, 0.0, 0.0};  ///< at the start, unit
     std::optional<Rotation> rotation;     ///< none: it does not turn
     std::optional<Program> mass;          ///< kg, one output
+    std::optional<Matrix3> inertia{};     ///< of a solid that impacts can turn: about its centre, its frame, kg m^2
 
     BodySlice slice() const { return {offset, rotation ? std::optional(rotation->layout) : std::nullopt}; }
   };

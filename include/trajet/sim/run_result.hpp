@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "trajet/collide/detect/contact.hpp"
 #include "trajet/math/vector.hpp"
 #include "trajet/ode/stepper.hpp"
 #include "trajet/scene/named_value.hpp"
@@ -38,8 +39,9 @@ struct Impact {
   Vector3 velocity_after;
   Vector3 angular_velocity_before = Vector3::Zero();
   Vector3 angular_velocity_after = Vector3::Zero();
-  Vector3 impulse;                ///< per mass where the body has none: m/s, else N s
-  double time_error_bound = 0.0;  ///< s
+  Vector3 impulse;                           ///< per mass where the body has none: m/s, else N s
+  double time_error_bound = 0.0;             ///< s
+  std::optional<TouchedFeatures> touched{};  ///< of solids that are no points or balls; `point` is in the middle
 };
 
 /// A `when` crossed zero, or a law that switches at a zero of the state `sticks` there or `slips` off it.

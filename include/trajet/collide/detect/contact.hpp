@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
+#include <vector>
 
+#include "trajet/collide/detect/witness_axis.hpp"
 #include "trajet/math/vector.hpp"
 
 namespace trajet {
@@ -44,6 +47,8 @@ struct ContactMemory {
   bool is_in_plane = false;
   /// Within this gap (m) a search that begins at `contact_time` is still in that contact.
   double tolerance = 0.0;
+  /// Of solids that turn: along which they were apart, or touched.
+  std::optional<WitnessAxis> axis{};
 };
 
 /// The memory after a contact at which the body stayed on the side that it came from.
@@ -52,23 +57,35 @@ inline ContactMemory rebounded(ContactMemory memory) {
   return memory;
 }
 
-/// The first contact of a ball with an obstacle. World frame, SI units.
+/// A part of a solid's surface.
+enum class Feature { vertex, edge, face, surface };  // surface: a round one
+
+/// What touches of two solids.
+struct TouchedFeatures {
+  Feature of_body = Feature::vertex;
+  Feature of_obstacle = Feature::vertex;
+  /// The corners of what they have in common: of a face on a face a polygon, of an edge on a face a stretch; else one.
+  std::vector<Vector3> points{};
+};
+
+/// The first contact of a body with an obstacle. World frame, SI units.
 struct ContactResult {
   ContactStatus status = ContactStatus::separated;
   double time = 0.0;                   ///< of the contact; for `unresolved`, from where on nothing is known
   double time_error_bound = 0.0;       ///< s: of the root, and of the Segment's error over the approach speed
   Vector3 point = Vector3::Zero();     ///< of contact, on the obstacle
   Vector3 normal = Vector3::Zero();    ///< unit, of the obstacle at the point, towards the side that the body came from
-  Vector3 position = Vector3::Zero();  ///< of the ball's centre
+  Vector3 position = Vector3::Zero();  ///< of the body's centre
   ContactDirection direction = ContactDirection::entering;
-  int side_before = 0;           ///< of a contact: from which the body came, as in ContactMemory
-  double time_resolution = 0.0;  ///< s: the part of time_error_bound that rounding makes
-  double gap_rate = 0.0;         ///< m/s, of the gap at the contact
-  double gap_curvature = 0.0;    ///< m/s^2
-  ContactMemory memory;          ///< for what follows, if the body passes through
+  int side_before = 0;                       ///< of a contact: from which the body came, as in ContactMemory
+  double time_resolution = 0.0;              ///< s: the part of time_error_bound that rounding makes
+  double gap_rate = 0.0;                     ///< m/s, of the gap at the contact
+  double gap_curvature = 0.0;                ///< m/s^2
+  std::optional<TouchedFeatures> touched{};  ///< of solids that turn
+  ContactMemory memory;                      ///< for what follows, if the body passes through
 
-  /// How far the time is off where the ball's position is off by `position_error` (m) along the normal, s: dt = dx / |gap
-  /// rate| at a crossing, dx = |gap''| dt^2 / 2 at a graze.
+  /// How far the time is off where the ball's position is off by `position_error` (m) along the normal, s: dt = dx /
+  /// |gap rate| at a crossing, dx = |gap''| dt^2 / 2 at a graze.
   double time_error(double position_error) const {
     if (!(position_error > 0.0)) return 0.0;
     return std::min(position_error / std::abs(gap_rate), std::sqrt(2.0 * position_error / std::abs(gap_curvature)));

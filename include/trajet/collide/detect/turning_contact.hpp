@@ -11,9 +11,6 @@
 
 namespace trajet {
 
-/// A part of a solid's surface.
-enum class Feature { vertex, edge, face, surface };  // surface: a round one
-
 /// What is known of a pair of turning solids before a search, so that paths join without losing or doubling a contact.
 ///
 /// A pair that has never been searched has the default. TurningContact::memory holds for what follows, whether the

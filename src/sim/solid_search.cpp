@@ -1,0 +1,160 @@
+#include "solid_search.hpp"
+
+#include <algorithm>
+#include <array>
+#include <numeric>
+#include <utility>
+
+#include "frame_paths.hpp"
+#include "trajet/collide/detect/turning_contact.hpp"
+
+namespace trajet {
+namespace {
+
+/// So many pieces are searched one by one; a stretch of time is as short as it meets no more.
+constexpr std::size_t kFew = 8;
+
+ContactResult result_of(const TurningContact& contact, const FramePath& body) {
+  ContactResult result;
+  result.status = contact.status;
+  result.time = contact.time;
+  result.time_error_bound = contact.time_error_bound;
+  result.time_resolution = contact.time_resolution;
+  result.point = contact.point;
+  result.normal = contact.normal;
+  result.position = body.pose(contact.time).p_WB;
+  result.side_before = 1;
+  result.gap_rate = contact.gap_rate;
+  result.gap_curvature = contact.gap_curvature;
+  result.touched = TouchedFeatures{contact.feature_a, contact.feature_b, contact.points};
+  return result;
+}
+
+/// Boxes around the pieces, in their frame.
+BoxTree tree_of(const ConvexPieces& pieces) {
+  std::vector<Aabb> boxes;
+  for (const ConvexCore& piece : pieces) {
+    Aabb box{piece.vertices.front(), piece.vertices.front()};
+    for (const Vector3& vertex : piece.vertices) {
+      box.lower = box.lower.cwiseMin(vertex);
+      box.upper = box.upper.cwiseMax(vertex);
+    }
+    boxes.push_back(grown(box, piece.rounding));
+  }
+  return BoxTree(boxes);
+}
+
+}  // namespace
+
+SolidSearch::SolidSearch(const World& world)
+    : world_(world), bodies_(world.bodies.size()), obstacles_(world.obstacles.size()) {}
+
+const SolidSearch::Pieces& SolidSearch::pieces_of_body(int body) {
+  auto& made = bodies_[static_cast<std::size_t>(body)];
+  if (!made) {
+    made = std::make_unique<Pieces>(Pieces{convex_pieces(world_.bodies[static_cast<std::size_t>(body)].solid)});
+  }
+  return *made;
+}
+
+const SolidSearch::Pieces& SolidSearch::pieces_of_obstacle(int index) {
+  auto& made = obstacles_[static_cast<std::size_t>(index)];
+  if (!made) {
+    const World::Obstacle& obstacle = world_.obstacles[static_cast<std::size_t>(index)];
+    ConvexPieces cores = convex_pieces(obstacle.solid);
+    // a driven one has its frame at its pivot
+    if (obstacle.drive) {
+      const Matrix3 R_BW = rotation_matrix(obstacle.q_WB).transpose();
+      cores = moved(std::move(cores), R_BW * (obstacle.p_WB - obstacle.drive->pivot));
+    }
+    made = std::make_unique<Pieces>(Pieces{std::move(cores)});
+    if (made->cores.size() > kFew) made->tree = tree_of(made->cores);
+  }
+  return *made;
+}
+
+ContactResult SolidSearch::first_contact(int body_index, int obstacle_index, const Segment<>& motion,
+                                         DrivenObstacle* driven, double from, double to, const ContactMemory& memory) {
+  const World::Body& body = world_.bodies[static_cast<std::size_t>(body_index)];
+  const World::Obstacle& obstacle = world_.obstacles[static_cast<std::size_t>(obstacle_index)];
+  const Pieces& body_pieces = pieces_of_body(body_index);
+  const Pieces& obstacle_pieces = pieces_of_obstacle(obstacle_index);
+  const FramePath at_rest = FramePath::at_rest(obstacle.p_WB, obstacle.q_WB);
+  const double direction = to < from ? -1.0 : 1.0;
+  ContactResult result{.memory = memory};
+  while (direction * (to - from) > 0.0) {
+    const FramePath path = body_path(body, motion, from);
+    const FramePath other = driven != nullptr ? driven->path(from, to) : at_rest;
+    double end = direction * (to - path.t1()) > 0.0 ? path.t1() : to;
+    if (driven != nullptr && direction * (end - other.t1()) > 0.0) end = other.t1();
+    if (!(direction * (end - from) > 0.0))
+      return {.status = ContactStatus::unresolved, .time = from, .memory = result.memory};
+    result = search({body_pieces, obstacle_pieces, path, other, bounding_radius(body.solid)}, from, end, result.memory);
+    if (result.status != ContactStatus::separated) return result;
+    from = end;
+  }
+  return result;
+}
+
+ContactResult SolidSearch::search(const Stretch& stretch, double from, double to, const ContactMemory& memory) {
+  const std::vector<int> candidates = near(stretch, from, to);
+  const double middle = from + 0.5 * (to - from);
+  constexpr double kShortest = 1e-9;  // of a time: no shorter stretch meets less
+  const bool is_short = std::abs(to - from) <= kShortest * (std::abs(from) + std::abs(to));
+  if (candidates.size() <= kFew || is_short || !stretch.obstacle.tree)
+    return search_pieces(stretch, candidates, from, to, memory);
+  const ContactResult first = search(stretch, from, middle, memory);
+  return first.status == ContactStatus::separated ? search(stretch, middle, to, first.memory) : first;
+}
+
+ContactResult SolidSearch::search_pieces(const Stretch& stretch, std::span<const int> near, double from, double to,
+                                         const ContactMemory& memory) {
+  const bool is_one = stretch.body.cores.size() == 1 && stretch.obstacle.cores.size() == 1;
+  TurningMemory known{memory.axis, memory.contact_time, memory.tolerance};
+  ContactResult result{.memory = memory};
+  double end = to;
+  for (const ConvexCore& body : stretch.body.cores)
+    for (const int index : near) {
+      const TurningContact found =
+          trajet::first_contact(body, stretch.body_path, stretch.obstacle.cores[static_cast<std::size_t>(index)],
+                                stretch.obstacle_path, from, end, known);
+      if (is_one) result.memory.axis = found.memory.axis;
+      if (found.status == ContactStatus::separated) continue;
+      result = result_of(found, stretch.body_path);
+      result.memory = {.side = -1,
+                       .contact_time = found.memory.contact_time,
+                       .tolerance = found.memory.tolerance,
+                       .axis = is_one ? found.memory.axis : std::nullopt};
+      end = found.time;
+      if (end == from) return result;
+    }
+  return result;
+}
+
+std::vector<int> SolidSearch::near(const Stretch& stretch, double from, double to) {
+  std::vector<int> found;
+  if (!stretch.obstacle.tree || !stretch.obstacle_path.is_at_rest()) {
+    found.resize(stretch.obstacle.cores.size());
+    std::iota(found.begin(), found.end(), 0);
+    return found;
+  }
+  // the box of the body's way, in the obstacle's frame
+  const FramePose pose = stretch.obstacle_path.pose(from);
+  Vector3 middle, half;
+  for (int i = 0; i < 3; ++i) {
+    const Range range = stretch.body_path.range(i, from, to);
+    middle[i] = 0.5 * (range.lower + range.upper);
+    half[i] = 0.5 * (range.upper - range.lower);
+  }
+  const Vector3 center = pose.R_WB.transpose() * (middle - pose.p_WB);
+  const Vector3 reach = Vector3::Constant(stretch.reach) + Vector3(pose.R_WB.transpose().cwiseAbs() * half);
+  constexpr double kMargin = 1e-9;  // far above what the sums round to
+  const Vector3 margin = kMargin * (reach + center.cwiseAbs());
+  stretch.obstacle.tree->visit_overlapping({center - reach - margin, center + reach + margin}, [&](int index) {
+    found.push_back(index);
+    return true;
+  });
+  return found;
+}
+
+}  // namespace trajet
