@@ -44,7 +44,7 @@ class QueryMaker {
     const auto path_a = is_ground ? std::vector{std::make_shared<const FramePath>(
                                         FramePath::at_rest(Vector3::Zero(), Quaternion::Identity()))}
                                   : fly(Vector3::Zero(), Vector3::Zero(), kDuration);
-    const Vector3 v = is_ground ? Vector3(0, 0, -3) : Vector3(direction() * 4.0);
+    const Vector3 v = is_ground ? Vector3(0, 0, -3) : Vector3(direction() * 8.0);
     const Vector3 r = is_ground ? Vector3(0, 0, 0.9) : Vector3(-0.2 * v + 0.2 * direction());
     const auto path_b = fly(r, v, kDuration);
     Query query{a, b, path_a[0], path_b[0], 0.0, 0.0, {}};

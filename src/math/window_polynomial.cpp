@@ -34,13 +34,21 @@ void ProductSum::add(const WindowPolynomial& a, const WindowPolynomial& b, doubl
   if (a.degree() == 0) {
     coefficients_ += (sign * a.coefficients()[0]) * b.coefficients();
   } else {
-    // row i of the product is b, moved up by i
-    Eigen::Array<double, 2 * kSize, 1> moved;
-    moved << Coefficients::Zero(), b.coefficients();
-    Coefficients sum = coefficients_;
-    for (int i = 0; i <= a.degree(); ++i)
-      sum += (sign * a.coefficients()[i]) * Eigen::Map<const Coefficients>(moved.data() + kSize - i);
-    coefficients_ = sum;
+    // row i of the product is b, moved up by i; even and odd rows apart, so that sums need not wait for each other
+    alignas(64) std::array<double, 2 * kSize> moved;
+    Eigen::Map<Coefficients>(moved.data()).setZero();
+    Eigen::Map<Coefficients>(moved.data() + kSize) = b.coefficients();
+    const auto row = [&](int i) {
+      return (sign * a.coefficients()[i]) * Eigen::Map<const Coefficients>(moved.data() + kSize - i);
+    };
+    Coefficients even = row(0), odd = row(1);
+    int i = 2;
+    for (; i < a.degree(); i += 2) {
+      even += row(i);
+      odd += row(i + 1);
+    }
+    if (i == a.degree()) even += row(i);
+    coefficients_ += even + odd;
   }
 
   double dropped = 0.0;

@@ -90,7 +90,7 @@ TEST(FastBlades, AMillimetreThickAtTenThousandRadiansASecond) {
       const Truth t = truth(e, e.from, e.to);
       ASSERT_EQ(is_contact(c), t.time.has_value()) << static_cast<int>(c.status);
       if (t.time) {
-        EXPECT_NEAR(c.time, static_cast<double>(*t.time), c.time_error_bound);
+        EXPECT_NEAR(c.time, static_cast<double>(*t.time), c.time_error_bound + 1e-16);  // the oracle's resolution
       }
     }
   }

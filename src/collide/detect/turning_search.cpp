@@ -260,12 +260,12 @@ ClosestFeatures TurningSearch::just_apart(const RelativeMotion& window, double t
   return closest;
 }
 
-bool TurningSearch::parts_behind(const RelativeMotion& window, double time, double tolerance) {
+bool TurningSearch::parts_behind(const RelativeMotion& window, double time, double tolerance, const Vector3& place) {
   constexpr double kFirst = 1e-12, kLast = 0.02;  // of the window
   for (double step = kFirst; step < kLast; step *= 2.0) {
     double t = time + 2.0 * window.half() * step;
     if (!is_before(t, to_)) t = to_;
-    const AxisCandidate c = choice_.choose(pose_at(t), tolerance);
+    const AxisCandidate c = choice_.choose(pose_at(t), tolerance, &place);
     if (c.is_clear()) return true;
     if (c.separation < -c.resolution || t == to_) return false;
   }
@@ -305,7 +305,7 @@ void TurningSearch::report(const RelativeMotion& window, double tolerance, const
     }
   }
   bool is_graze = zero.kind == RootKind::touch;
-  if (!is_known && !is_graze && !zero.at_end) is_graze = parts_behind(window, time, tolerance);
+  if (!is_known && !is_graze && !zero.at_end) is_graze = parts_behind(window, time, tolerance, patch.point);
   finish(is_graze ? ContactStatus::graze : ContactStatus::hit, time);
   TurningContact& c = contact_;
   c.normal = a.R_WB * normal;
