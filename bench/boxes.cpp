@@ -11,25 +11,6 @@
 namespace trajet::bench {
 namespace {
 
-/// State: (r, v, q_WB, w_WB_B), the quaternion as (w, x, y, z).
-struct FreeBox {
-  Vector3 inertia = Boxes::inertia();
-
-  template <class Time, class Vector, class Rate>
-  void operator()(const Time&, const Vector& q, Rate& dq) const {
-    const auto &s = q[6], &x = q[7], &y = q[8], &z = q[9], &wx = q[10], &wy = q[11], &wz = q[12];
-    for (int i = 0; i < 3; ++i) dq[i] = q[3 + i];
-    for (int i = 3; i < 6; ++i) dq[i] = 0.0;
-    dq[6] = -0.5 * (x * wx + y * wy + z * wz);
-    dq[7] = 0.5 * (s * wx + y * wz - z * wy);
-    dq[8] = 0.5 * (s * wy + z * wx - x * wz);
-    dq[9] = 0.5 * (s * wz + x * wy - y * wx);
-    dq[10] = (inertia[1] - inertia[2]) / inertia[0] * (wy * wz);
-    dq[11] = (inertia[2] - inertia[0]) / inertia[1] * (wz * wx);
-    dq[12] = (inertia[0] - inertia[1]) / inertia[2] * (wx * wy);
-  }
-};
-
 using State = Eigen::Matrix<double, 13, 1>;
 
 template <class Method>

@@ -52,6 +52,7 @@ void add_laws();
 void add_scenes();
 void add_rifle_shot();
 void add_boxes();
+void add_turning_contacts();
 void add_odeint();
 void add_gsl();
 void add_sundials();

@@ -214,6 +214,22 @@ CoreSupport support(const ConvexCore& core, const Vector3& direction) {
 
 ConvexCore convex_core(const Solid& solid) { return std::visit(MakeCore{}, solid); }
 
+ConvexCore ellipsoid_core(const Vector3& radii) {
+  ConvexCore core;
+  core.vertices.push_back(Vector3::Zero());
+  core.spreads.push_back(radii.asDiagonal());
+  return finished(core);
+}
+
+ConvexCore cone_core(double radius, double base, double apex) {
+  ConvexCore core;
+  core.vertices = {{0, 0, base}, {0, 0, apex}};
+  core.spreads = {Vector3(radius, radius, 0).asDiagonal(), Matrix3::Zero()};
+  const double down = apex > base ? -1.0 : 1.0;
+  core.faces.push_back({{0, 0, down}, down * base, {}});
+  return finished(core);
+}
+
 ConvexCore hull_core(const TriangleMesh& surface) {
   ConvexCore core;
   core.vertices = surface.vertices;

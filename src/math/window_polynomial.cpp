@@ -4,6 +4,16 @@ namespace trajet {
 
 using Coefficients = WindowPolynomial::Coefficients;
 
+namespace {
+
+alignas(64) constexpr auto kPowers = [] {
+  std::array<double, WindowPolynomial::kSize> k{};
+  for (std::size_t i = 0; i < k.size(); ++i) k[i] = static_cast<double>(i);
+  return k;
+}();
+
+}  // namespace
+
 /// Leaves out the highest terms that are below rounding, and takes the sizes.
 void WindowPolynomial::trim() {
   const Coefficients size = coefficients_.abs();
@@ -15,18 +25,31 @@ void WindowPolynomial::trim() {
     coefficients_[degree_--] = 0.0;
   }
   error_ += left_out;
-  slope_ = 0.0;
-  for (int k = 1; k <= degree_; ++k) slope_ += k * size[k];
+  slope_ = (Eigen::Map<const Coefficients>(kPowers.data()) * size).sum();
 }
 
 void ProductSum::add(const WindowPolynomial& a, const WindowPolynomial& b, double sign) {
   if (b.degree() < a.degree()) return add(b, a, sign);
   constexpr int kSize = WindowPolynomial::kSize;
-  // row i of the product is b, moved up by i
-  std::array<double, 2 * kSize> moved{};
-  std::copy_n(b.coefficients().data(), kSize, moved.begin() + kSize);
-  for (int i = 0; i <= a.degree(); ++i)
-    coefficients_ += (sign * a.coefficients()[i]) * Eigen::Map<const Coefficients>(moved.data() + kSize - i);
+  if (a.degree() == 0) {
+    coefficients_ += (sign * a.coefficients()[0]) * b.coefficients();
+  } else {
+    // row i of the product is b, moved up by i; even and odd rows apart, so that sums need not wait for each other
+    alignas(64) std::array<double, 2 * kSize> moved;
+    Eigen::Map<Coefficients>(moved.data()).setZero();
+    Eigen::Map<Coefficients>(moved.data() + kSize) = b.coefficients();
+    const auto row = [&](int i) {
+      return (sign * a.coefficients()[i]) * Eigen::Map<const Coefficients>(moved.data() + kSize - i);
+    };
+    Coefficients even = row(0), odd = row(1);
+    int i = 2;
+    for (; i < a.degree(); i += 2) {
+      even += row(i);
+      odd += row(i + 1);
+    }
+    if (i == a.degree()) even += row(i);
+    coefficients_ += even + odd;
+  }
 
   double dropped = 0.0;
   if (a.degree() + b.degree() > WindowPolynomial::kMaxDegree) {

@@ -10,7 +10,8 @@
 namespace trajet {
 namespace {
 
-using Column = Eigen::Array<double, 8, 1>;
+using Column = Eigen::Array<double, 4, 1>;
+using Rows = Eigen::Matrix<double, 4, Eigen::Dynamic>;
 
 /// |q|^2 and |q|^2 R_WB, polynomials of the quaternion.
 void turn(const WindowPolynomial* q, WindowMatrix& N, WindowPolynomial& D) {
@@ -35,17 +36,16 @@ void turn(const WindowPolynomial* q, WindowMatrix& N, WindowPolynomial& D) {
   }
 }
 
-/// All components of the path as polynomials of u.
-std::array<WindowPolynomial, 7> on_window(const FramePath& path, double middle, double half) {
-  std::array<WindowPolynomial, 7> component;
-  if (path.is_at_rest()) {
-    for (std::size_t i = 0; i < 7; ++i) component[i] = WindowPolynomial::constant(path.rows()(static_cast<int>(i), 0));
+/// Four rows of coefficients of tau^k, tau = begin + half u, as polynomials of u.
+std::array<WindowPolynomial, 4> on_window(const Rows& rows, double begin, double half) {
+  std::array<WindowPolynomial, 4> component;
+  const int degree = static_cast<int>(rows.cols()) - 1;
+  if (degree == 0) {
+    for (std::size_t i = 0; i < 4; ++i) component[i] = WindowPolynomial::constant(rows(static_cast<int>(i), 0));
     return component;
   }
   // p(begin + half u) by repeated synthetic division
-  const double begin = middle - path.t0();
-  Eigen::Array<double, 8, Eigen::Dynamic, 0, 8, kMaxPolynomialDegree + 1> c = path.rows();
-  const int degree = static_cast<int>(c.cols()) - 1;
+  Eigen::Array<double, 4, Eigen::Dynamic, 0, 4, kMaxPolynomialDegree + 1> c = rows;
   // of all that coefficient j gives to others, no term passes more than 3j + 2 roundings
   const double far = std::abs(begin) + std::abs(half);
   Column magnitude = Column::Zero();
@@ -60,12 +60,29 @@ std::array<WindowPolynomial, 7> on_window(const FramePath& path, double middle, 
     if (k > WindowPolynomial::kMaxDegree) cut += c.col(k).abs();
   }
   const int kept = std::min(degree, WindowPolynomial::kMaxDegree);
-  for (int i = 0; i < 7; ++i) {
+  for (int i = 0; i < 4; ++i) {
     WindowPolynomial::Coefficients row = WindowPolynomial::Coefficients::Zero();
-    row.head(kept + 1) = c.row(i).head(kept + 1).transpose();
+    for (int k = 0; k <= kept; ++k) row[k] = c(i, k);
     component[static_cast<std::size_t>(i)] = {row, kept, kUnitRoundoff * magnitude[i] + cut[i], cut[i]};
   }
   return component;
+}
+
+/// Without the highest coefficients that are zero.
+Rows shortened(Rows rows) {
+  Eigen::Index size = rows.cols();
+  while (size > 1 && rows.col(size - 1).isZero(0.0)) --size;
+  return rows.leftCols(size);
+}
+
+/// The values at tau and their derivatives.
+void evaluate(const Rows& rows, double tau, Column& x, Column& dx) {
+  x = rows.col(rows.cols() - 1);
+  dx = Column::Zero();
+  for (Eigen::Index k = rows.cols() - 1; k-- > 0;) {
+    dx = dx * tau + x;
+    x = x * tau + rows.col(k).array();
+  }
 }
 
 }  // namespace
@@ -74,10 +91,17 @@ FramePath::FramePath(double t0, double t1, const Coefficients& coefficients, con
     : t0_(t0), t1_(t1), error_bound_(error_bound) {
   if (coefficients.cols() == 0) throw std::domain_error("a path needs a coefficient");
   if (coefficients.cols() > kMaxPolynomialDegree + 1) throw std::length_error("path of too high a degree");
-  Eigen::Index size = coefficients.cols();
-  while (size > 1 && coefficients.col(size - 1).isZero(0.0)) --size;
-  rows_.setZero(8, size);
-  rows_.topRows<7>() = coefficients.leftCols(size);
+  Rows rows = Rows::Zero(4, coefficients.cols());
+  rows.topRows<3>() = coefficients.topRows<3>();
+  position_ = shortened(rows);
+  orientation_ = shortened(coefficients.bottomRows<4>());
+}
+
+FramePath::Coefficients FramePath::coefficients() const {
+  Coefficients c = Coefficients::Zero(7, std::max(position_.cols(), orientation_.cols()));
+  c.topLeftCorner(3, position_.cols()) = position_.topRows<3>();
+  c.bottomLeftCorner(4, orientation_.cols()) = orientation_;
+  return c;
 }
 
 FramePath FramePath::at_rest(const Vector3& p_WB, const Quaternion& q_WB) {
@@ -90,15 +114,13 @@ FramePath FramePath::at_rest(const Vector3& p_WB, const Quaternion& q_WB) {
 
 FramePose FramePath::pose(double t) const {
   const double tau = is_at_rest() ? 0.0 : t - t0_;
-  Column x = rows_.col(rows_.cols() - 1), dx = Column::Zero();
-  for (Eigen::Index k = rows_.cols() - 1; k-- > 0;) {
-    dx = dx * tau + x;
-    x = x * tau + rows_.col(k).array();
-  }
+  Column p, v, x, dx;
+  evaluate(position_, tau, p, v);
+  evaluate(orientation_, tau, x, dx);
   FramePose pose;
-  pose.p_WB = x.head<3>();
-  pose.v_WB = dx.head<3>();
-  const Quaternion q(x[3], x[4], x[5], x[6]), dq(dx[3], dx[4], dx[5], dx[6]);
+  pose.p_WB = p.head<3>();
+  pose.v_WB = v.head<3>();
+  const Quaternion q(x[0], x[1], x[2], x[3]), dq(dx[0], dx[1], dx[2], dx[3]);
   const double norm2 = q.squaredNorm();
   pose.R_WB = rotation_matrix(q) / norm2;
   // dq/dt = 1/2 (0, w_WB_W) q, and what lengthens q is not in the vector part
@@ -118,14 +140,12 @@ double FramePath::point_error(double reach) const {
   return error_bound_.head<3>().norm() + 2.0 * reach * error_bound_.tail<4>().norm();
 }
 
-FrameWindow::FrameWindow(const FramePath& path, double middle, double half) {
-  const auto component = on_window(path, middle, half);
-  p = {component[0], component[1], component[2]};
-  turn(component.data() + 3, N, D);
+FrameWindow::FrameWindow(const FramePath& path, double middle, double half) : p(position_window(path, middle, half)) {
+  turn(on_window(path.orientation(), path.is_at_rest() ? 0.0 : middle - path.t0(), half).data(), N, D);
 }
 
 WindowVector position_window(const FramePath& path, double middle, double half) {
-  const auto component = on_window(path, middle, half);
+  const auto component = on_window(path.position(), path.is_at_rest() ? 0.0 : middle - path.t0(), half);
   return {component[0], component[1], component[2]};
 }
 

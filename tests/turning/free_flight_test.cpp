@@ -2,37 +2,15 @@
 
 #include <gtest/gtest.h>
 
+#include "free_flight.hpp"
 #include "random_flights.hpp"
 #include "trajet/ode/solve.hpp"
 
 namespace trajet::turning {
-namespace {
-
-/// A free rigid body under gravity. State: r, v, q_WB (w x y z), w_WB_B.
-struct FreeBody {
-  Vector3 inertia = Vector3::Ones();
-  double gravity = 9.81;
-
-  template <class Time, class State, class Rate>
-  void operator()(const Time&, const State& q, Rate& d) const {
-    using N = std::decay_t<decltype(d[0])>;
-    for (int i = 0; i < 3; ++i) d[i] = q[3 + i];
-    d[3] = N(0.0), d[4] = N(0.0), d[5] = N(-gravity);
-    const auto &w = q[6], &x = q[7], &y = q[8], &z = q[9], &a = q[10], &b = q[11], &c = q[12];
-    d[6] = N(-0.5) * (x * a + y * b + z * c), d[7] = N(0.5) * (w * a + y * c - z * b);
-    d[8] = N(0.5) * (w * b + z * a - x * c), d[9] = N(0.5) * (w * c + x * b - y * a);
-    d[10] = N((inertia[1] - inertia[2]) / inertia[0]) * (b * c);
-    d[11] = N((inertia[2] - inertia[0]) / inertia[1]) * (c * a);
-    d[12] = N((inertia[0] - inertia[1]) / inertia[2]) * (a * b);
-  }
-};
-
-}  // namespace
-
 std::vector<FramePath> fly(const FreeState& start, const Vector3& inertia, double gravity, double from, double to) {
   SolveOptions options;
   options.rtol = options.atol = 1e-13;
-  const auto run = solve<Taylor>(FreeBody{inertia, gravity}, from, start, to, options);
+  const auto run = solve<Taylor>(FreeFlight{inertia, gravity}, from, start, to, options);
   std::vector<FramePath> flight;
   for (const auto& s : run.segments) {
     FramePath::Coefficients c(7, s.coefficients().cols());

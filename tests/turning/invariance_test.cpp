@@ -51,7 +51,7 @@ TEST(Invariance, TheOriginOfTimeDoesNotMatterToWhatItsDigitsTell) {
           x.from += later, x.to += later;
           for (MovingSolid* s : {&x.a, &x.b})
             for (FramePath& p : s->flight)
-              if (!p.is_at_rest()) p = FramePath(p.t0() + later, p.t1() + later, p.rows().topRows<7>());
+              if (!p.is_at_rest()) p = FramePath(p.t0() + later, p.t1() + later, p.coefficients());
           return x;
         },
         later, 1e-15 * later, Matrix3::Identity());
@@ -65,7 +65,7 @@ TEST(Invariance, TheWorldCanBeTurnedAndMoved) {
         Encounter x = e;
         for (MovingSolid* s : {&x.a, &x.b})
           for (FramePath& p : s->flight) {
-            FramePath::Coefficients c = p.rows().topRows<7>();
+            FramePath::Coefficients c = p.coefficients();
             for (Eigen::Index k = 0; k < c.cols(); ++k) {
               c.col(k).head<3>() = R * c.col(k).head<3>();
               const Quaternion turned = q * Quaternion(c(3, k), c(4, k), c(5, k), c(6, k));
@@ -90,7 +90,7 @@ TEST(FastBlades, AMillimetreThickAtTenThousandRadiansASecond) {
       const Truth t = truth(e, e.from, e.to);
       ASSERT_EQ(is_contact(c), t.time.has_value()) << static_cast<int>(c.status);
       if (t.time) {
-        EXPECT_NEAR(c.time, static_cast<double>(*t.time), c.time_error_bound);
+        EXPECT_NEAR(c.time, static_cast<double>(*t.time), c.time_error_bound + 1e-16);  // the oracle's resolution
       }
     }
   }

@@ -9,12 +9,13 @@
 #include <string>
 #include <vector>
 
+#include "free_flight.hpp"
 #include "trajet/collide/detect/turning_contact.hpp"
 
 namespace trajet::turning {
 
 /// r, v, q_WB (w x y z), w_WB_B.
-using FreeState = Eigen::Matrix<double, 13, 1>;
+using FreeState = FreeFlight::State;
 
 inline FreeState free_state(const Vector3& r, const Vector3& v, const Quaternion& q, const Vector3& w_B) {
   return (FreeState() << r, v, q.w(), q.x(), q.y(), q.z(), w_B).finished();
@@ -46,7 +47,7 @@ inline void rest(MovingSolid& solid, const Vector3& r, const Quaternion& q) {
 /// Moves the whole flight.
 inline void shift(MovingSolid& solid, const Vector3& by) {
   for (FramePath& path : solid.flight) {
-    FramePath::Coefficients c = path.rows().topRows<7>();
+    FramePath::Coefficients c = path.coefficients();
     c.col(0).head<3>() += by;
     path = path.is_at_rest() ? FramePath::at_rest(c.col(0).head<3>(), {c(3, 0), c(4, 0), c(5, 0), c(6, 0)})
                              : FramePath(path.t0(), path.t1(), c);

@@ -34,6 +34,11 @@ class RandomFlights {
     if (kind == "soccer") return convex_core(SoccerBall{uniform(0.1, 0.3)});
     if (kind == "cylinder") return convex_core(Cylinder{uniform(0.05, 0.3), uniform(0.05, 0.3)});
     if (kind == "disk") return convex_core(RoundPlate{uniform(0.1, 0.3)});
+    if (kind == "cone") {
+      const double height = uniform(0.1, 0.5);
+      return cone_core(uniform(0.05, 0.3), -0.25 * height, 0.75 * height);
+    }
+    if (kind == "ellipsoid") return ellipsoid_core({uniform(0.05, 0.4), uniform(0.05, 0.4), uniform(0.05, 0.4)});
     if (kind == "rounded-box") {
       ConvexCore box = convex_core(Cuboid{{uniform(0.05, 0.3), uniform(0.05, 0.3), uniform(0.05, 0.3)}});
       box.rounding = uniform(0.01, 0.1);

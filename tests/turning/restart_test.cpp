@@ -136,7 +136,7 @@ TEST(Restart, BackwardInTimeTheSameContactsAreMet) {
             paths.push_back(p);
             continue;
           }
-          FramePath::Coefficients c = p.rows().topRows<7>();
+          FramePath::Coefficients c = p.coefficients();
           for (Eigen::Index i = 1; i < c.cols(); i += 2) c.col(i) *= -1.0;
           // a path that begins late: written from its later end, t1 before t0
           paths.insert(paths.begin(), FramePath(-p.t0(), -p.t1(), c));

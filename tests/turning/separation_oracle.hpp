@@ -24,10 +24,11 @@ struct ExtendedPose {
 
   ExtendedPose(const FramePath& path, Extended t) {
     const Extended tau = path.is_at_rest() ? Extended(0) : t - Extended(path.t0());
+    const FramePath::Coefficients rows = path.coefficients();
     Extended x[7];
     for (int i = 0; i < 7; ++i) {
       x[i] = 0;
-      for (Eigen::Index k = path.rows().cols(); k-- > 0;) x[i] = x[i] * tau + Extended(path.rows()(i, k));
+      for (Eigen::Index k = rows.cols(); k-- > 0;) x[i] = x[i] * tau + Extended(rows(i, k));
     }
     r << x[0], x[1], x[2];
     const Extended w = x[3], a = x[4], b = x[5], c = x[6], n = w * w + a * a + b * b + c * c;

@@ -56,6 +56,10 @@ CoreSupport support(const ConvexCore& core, const Vector3& direction);
 /// The core of a convex solid. Throws std::domain_error for a mesh, which is not convex.
 ConvexCore convex_core(const Solid& solid);
 
+/// |x_i / radii_i| <= 1, all radii > 0.
+ConvexCore ellipsoid_core(const Vector3& radii);
+/// Around z: a disk at `base` (m) and the apex at another height.
+ConvexCore cone_core(double radius, double base, double apex);
 /// The hull of corners of a convex solid with triangles for a surface, those that lie in one plane joined to faces.
 ConvexCore hull_core(const TriangleMesh& surface);
 /// A flat convex polygon of at least three corners, in order around it: a plate without thickness, or one triangle of a

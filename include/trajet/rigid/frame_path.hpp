@@ -40,20 +40,25 @@ class FramePath {
 
   double t0() const { return t0_; }
   double t1() const { return t1_; }
-  bool is_at_rest() const { return rows_.cols() == 1; }
+  bool is_at_rest() const { return position_.cols() == 1 && orientation_.cols() == 1; }
   FramePose pose(double t) const;
   /// Encloses component i between two times.
   Range range(int i, double from, double to) const;
   /// Bound of the distance by which the path is off at a point that is at most `reach` (m) from B's origin, m.
   double point_error(double reach) const;
 
-  /// The row of component i, padded to eight.  // (8 x degree+1)
-  const Eigen::Matrix<double, 8, Eigen::Dynamic>& rows() const { return rows_; }
+  /// Rows of x y z; a fourth one is zero.  // (4 x degree+1)
+  const Eigen::Matrix<double, 4, Eigen::Dynamic>& position() const { return position_; }
+  /// Rows w x y z.  // (4 x degree+1)
+  const Eigen::Matrix<double, 4, Eigen::Dynamic>& orientation() const { return orientation_; }
+  /// As they were given.  // (7 x degree+1)
+  Coefficients coefficients() const;
 
  private:
   double t0_;
   double t1_;
-  Eigen::Matrix<double, 8, Eigen::Dynamic> rows_;
+  Eigen::Matrix<double, 4, Eigen::Dynamic> position_;
+  Eigen::Matrix<double, 4, Eigen::Dynamic> orientation_;
   Values error_bound_;
 };
 

@@ -100,6 +100,7 @@ AxisCandidate AxisChoice::choose(const RelativePose& pose, double tolerance, con
   if (place != nullptr) offer_near(*place);
   if (best_.is_clear() || (best_.separation > -tolerance && std::abs(apart) <= tolerance)) return best_;
   offer_all();
+  if (best_.axis.direction.isZero(0.0) && best_.axis.kind == AxisKind::in_a) offer_fixed(Vector3::UnitX());
   return best_;
 }
 

@@ -45,12 +45,17 @@ Flat flat_part(const ConvexCore& core, const Vector3& direction, double margin, 
   Flat flat;
   const CoreSupport farthest = support(core, direction);
   if (core.is_spread()) {
-    // of a disk that lies in the plane every point is as far
-    const Matrix3& E = core.spreads[static_cast<std::size_t>(farthest.vertex)];
-    const bool is_flat = (E.transpose() * direction).norm() <= margin;
-    const Vector3 p = is_flat ? core.vertices[static_cast<std::size_t>(farthest.vertex)] : farthest.point;
-    flat.corners.push_back(plane(place(p)));
-    flat.feature = is_flat && !E.isZero(0.0) ? Feature::face : E.isZero(0.0) ? Feature::vertex : Feature::surface;
+    flat.feature = Feature::vertex;
+    for (std::size_t i = 0; i < core.vertices.size(); ++i) {
+      const Matrix3& E = core.spreads[i];
+      const Vector3 y = E.transpose() * direction;
+      const double length = y.norm();
+      if (direction.dot(core.vertices[i]) + length < farthest.height - margin) continue;
+      // of a disk that lies in the plane every point is as far
+      const bool is_flat = length <= margin;
+      flat.corners.push_back(plane(place(is_flat ? core.vertices[i] : Vector3(core.vertices[i] + E * (y / length)))));
+      if (!E.isZero(0.0)) flat.feature = is_flat ? Feature::face : Feature::surface;
+    }
     return flat;
   }
   for (const Vector3& v : core.vertices)

@@ -247,12 +247,25 @@ void TurningSearch::finish(ContactStatus status, double time) {
   is_done_ = true;
 }
 
-bool TurningSearch::parts_behind(const RelativeMotion& window, double time, double tolerance) {
+/// The closest points of curved solids a little before they touch: there direction and place have more digits than
+/// where the distance is rounding.
+ClosestFeatures TurningSearch::just_apart(const RelativeMotion& window, double time) const {
+  ClosestFeatures closest;
+  constexpr double kFirst = 1e-10, kLast = 1e-3;  // of the window
+  for (double step = kFirst; step < kLast; step *= 4.0) {
+    closest = closest_features(A_, B_, pose_at(time - 2.0 * window.half() * step));
+    constexpr double kApart = 1e-9;
+    if (closest.distance - A_.rounding - B_.rounding > kApart * size_) break;
+  }
+  return closest;
+}
+
+bool TurningSearch::parts_behind(const RelativeMotion& window, double time, double tolerance, const Vector3& place) {
   constexpr double kFirst = 1e-12, kLast = 0.02;  // of the window
   for (double step = kFirst; step < kLast; step *= 2.0) {
     double t = time + 2.0 * window.half() * step;
     if (!is_before(t, to_)) t = to_;
-    const AxisCandidate c = choice_.choose(pose_at(t), tolerance);
+    const AxisCandidate c = choice_.choose(pose_at(t), tolerance, &place);
     if (c.is_clear()) return true;
     if (c.separation < -c.resolution || t == to_) return false;
   }
@@ -272,7 +285,12 @@ void TurningSearch::report(const RelativeMotion& window, double tolerance, const
     b = b_.pose(time);
     const RelativePose pose = relative_pose(a, b);
     normal = axis_direction(A_, B_, pose, *axis_);
+    const bool is_curved = !A_.is_half_space && (A_.is_spread() || B_.is_spread());
+    const ClosestFeatures closest = is_curved ? just_apart(window, time) : ClosestFeatures{};
+    if (closest.distance > 0.0) normal = closest.direction;
     patch = contact_patch(A_, B_, pose, normal, kMargin * size_);
+    if (closest.distance > 0.0 && patch.corners.size() == 1)
+      patch.point = 0.5 * (closest.on_a + A_.rounding * normal + closest.on_b - B_.rounding * normal);
     const Vector3 point = a.point(patch.point);
     rate = (a.R_WB * normal).dot(b.velocity_at(point) - a.velocity_at(point));
   };
@@ -287,7 +305,7 @@ void TurningSearch::report(const RelativeMotion& window, double tolerance, const
     }
   }
   bool is_graze = zero.kind == RootKind::touch;
-  if (!is_known && !is_graze && !zero.at_end) is_graze = parts_behind(window, time, tolerance);
+  if (!is_known && !is_graze && !zero.at_end) is_graze = parts_behind(window, time, tolerance, patch.point);
   finish(is_graze ? ContactStatus::graze : ContactStatus::hit, time);
   TurningContact& c = contact_;
   c.normal = a.R_WB * normal;

@@ -40,8 +40,10 @@ class TurningSearch {
                        const Vector3* place);
   void report(const RelativeMotion& window, double tolerance, const SeparationZero& zero, double time, double apart,
               bool is_known);
-  /// Whether solids that touch within the tolerance at a time are apart again behind it, before they overlap.
-  bool parts_behind(const RelativeMotion& window, double time, double tolerance);
+  ClosestFeatures just_apart(const RelativeMotion& window, double time) const;
+  /// Whether solids that touch within the tolerance at a time, at a place in A, are apart again behind it, before they
+  /// overlap.
+  bool parts_behind(const RelativeMotion& window, double time, double tolerance, const Vector3& place);
 
   const ConvexCore& A_;
   const ConvexCore& B_;
