@@ -184,8 +184,10 @@ MeshSurface make_mesh_surface(const TriangleMesh& mesh) {
       std::make_shared<const SurfaceTriangles>(SurfaceTriangles{std::move(own), is_closed, spacing, std::move(tree)})};
 }
 
-MeshSurface make_rounded_hull_surface(std::span<const Vector3> points, double rounding) {
-  SurfaceTriangles triangles = *make_mesh_surface(eroded_hull(convex_hull(points), rounding)).triangles;
+MeshSurface make_hull_surface(std::span<const Vector3> points, double rounding) {
+  const TriangleMesh hull = convex_hull(points);
+  SurfaceTriangles triangles = *make_mesh_surface(rounding > 0.0 ? eroded_hull(hull, rounding) : hull).triangles;
+  triangles.convex = std::make_shared<const ConvexFaces>(convex_faces(triangles.mesh));
   triangles.growth = rounding;
   return {std::make_shared<const SurfaceTriangles>(std::move(triangles))};
 }

@@ -117,8 +117,8 @@ class FixedSolid {
       return rounded_hull(points);
     }
     for (const Expression& point : shape.points) points.push_back(corner(point));
-    TriangleMesh mesh = convex_hull(points);
-    MeshSurface surface = make_mesh_surface(mesh);
+    MeshSurface surface = make_hull_surface(points);
+    TriangleMesh mesh = surface.triangles->mesh;
     const VolumeProperties properties = mesh_properties(mesh);
     for (Vector3& vertex : mesh.vertices) vertex = R_WB_.transpose() * (vertex - properties.center);
     return placed(make_hull(mesh.vertices), properties.center, R_WB_, std::move(surface));
@@ -187,7 +187,7 @@ class FixedSolid {
     const RoundedSolid solid = make_rounded_hull(points, *rounding_);
     const Vector3 center = grown_hull_properties(eroded_hull(convex_hull(points), *rounding_), *rounding_).center;
     for (Vector3& point : points) point = center_ + R_WB_ * point;
-    return placed(solid, center_ + R_WB_ * center, R_WB_, make_rounded_hull_surface(points, *rounding_));
+    return placed(solid, center_ + R_WB_ * center, R_WB_, make_hull_surface(points, *rounding_));
   }
 
   /// As scene files call it.

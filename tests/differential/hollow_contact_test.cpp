@@ -85,9 +85,48 @@ Kind rounded_box(Random& random, const Vector3& near) {
   std::vector<Vector3> corners;
   for (int i = 0; i < 8; ++i)
     corners.push_back(near + R * half.cwiseProduct(Vector3(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1)));
-  return {make_rounded_hull_surface(corners, rounding), in_frame(near, R, [=](const RealVector& q) {
+  return {make_hull_surface(corners, rounding), in_frame(near, R, [=](const RealVector& q) {
             return box_distance(q, half.cast<Real>().array() - Real(rounding)) - rounding;
           })};
+}
+
+/// A box again, by its corners alone.
+Kind sharp_box(Random& random, const Vector3& near) {
+  const Matrix3 R = random.rotation();
+  const Vector3 half(random.uniform(0.1, 1.0), random.uniform(0.1, 1.0), random.uniform(0.1, 1.0));
+  std::vector<Vector3> corners;
+  for (int i = 0; i < 8; ++i)
+    corners.push_back(near + R * half.cwiseProduct(Vector3(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1)));
+  return {make_hull_surface(corners),
+          in_frame(near, R, [=](const RealVector& q) { return box_distance(q, half.cast<Real>()); })};
+}
+
+/// Of a hull the oracle knows the corners only: outside, the distance is the greatest of those to planes through each
+/// three of them that have the others behind, to lines through two and to corners; each where its foot is nearest.
+Kind tetrahedron(Random& random, const Vector3& near) {
+  std::vector<Vector3> corners;
+  for (int i = 0; i < 4; ++i) corners.push_back(near + random.vector(1.0));
+  return {make_hull_surface(corners), [=](const RealVector& p) {
+            Real outside = -1e30L, nearest = 1e30L;
+            for (std::size_t i = 0; i < 4; ++i) {
+              const RealVector a = corners[(i + 1) % 4].cast<Real>(), b = corners[(i + 2) % 4].cast<Real>(),
+                               c = corners[(i + 3) % 4].cast<Real>();
+              RealVector n = (b - a).cross(c - a).normalized();
+              if (n.dot(corners[i].cast<Real>() - a) > 0) n = -n;
+              const Real above = n.dot(p - a);
+              outside = std::max(outside, above);
+              const RealVector foot = p - above * n;
+              const auto side = [&](const RealVector& u, const RealVector& v) { return (v - u).cross(foot - u).dot(n); };
+              const Real ab = side(a, b), bc = side(b, c), ca = side(c, a);
+              if ((ab >= 0 && bc >= 0 && ca >= 0) || (ab <= 0 && bc <= 0 && ca <= 0))
+                nearest = std::min(nearest, std::abs(above));
+              for (const auto& [u, v] : {std::pair(a, b), std::pair(b, c), std::pair(c, a)}) {
+                const Real s = std::clamp<Real>((p - u).dot(v - u) / (v - u).squaredNorm(), 0, 1);
+                nearest = std::min(nearest, (p - u - s * (v - u)).norm());
+              }
+            }
+            return outside > 0 ? nearest : outside;
+          }};
 }
 
 /// Waves on a slope.
@@ -133,6 +172,11 @@ TEST(RoundedContact, PointAgainstCones) { run(13, false, rounded_cone); }
 TEST(RoundedContact, BallAgainstCones) { run(14, true, rounded_cone); }
 TEST(RoundedContact, PointAgainstBoxes) { run(15, false, rounded_box); }
 TEST(RoundedContact, BallAgainstBoxes) { run(16, true, rounded_box); }
+
+TEST(HullContact, PointAgainstBoxes) { run(18, false, sharp_box); }
+TEST(HullContact, BallAgainstBoxes) { run(19, true, sharp_box); }
+TEST(HullContact, PointAgainstTetrahedra) { run(20, false, tetrahedron); }
+TEST(HullContact, BallAgainstTetrahedra) { run(21, true, tetrahedron); }
 
 TEST(TerrainContact, PointOverWaves) { run(17, false, terrain); }
 

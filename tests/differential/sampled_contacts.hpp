@@ -178,7 +178,7 @@ inline void compare(const Parabola& motion, const Kind& kind, double radius, Cou
     overlaps = contact.status == ContactStatus::overlapping_at_start;
     if (overlaps) break;
     ASSERT_NE(contact.status, ContactStatus::unresolved);
-    ASSERT_LT(contacts.size(), 20u);
+    ASSERT_LT(contacts.size(), 100u);
     contacts.push_back(contact);
     memory = contact.memory;
     from = contact.time;

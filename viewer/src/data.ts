@@ -106,8 +106,8 @@ export type ObstacleShape =
   | { kind: "sphere"; center: Vector; radius: number }
   /** `axes`: the columns of R_WB. */
   | { kind: "box"; center: Vector; size: Vector; axes: [Vector, Vector, Vector] }
-  /** Triangles: indices of three vertices each. `closed`: it encloses matter. */
-  | { kind: "mesh"; vertices: Vector[]; triangles: Vector[]; closed: boolean };
+  /** Triangles: indices of three vertices each. `closed`: it encloses matter; `hollow`: a room, the matter is around it. */
+  | { kind: "mesh"; vertices: Vector[]; triangles: Vector[]; closed: boolean; hollow?: boolean };
 
 export interface ObstacleData {
   name: string;

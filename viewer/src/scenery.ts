@@ -36,6 +36,7 @@ export class Scenery {
   readonly spacing: number;
   /** Of obstacles that are closed, which are seen from outside, and of flat ones. */
   private readonly closed: THREE.MeshLambertMaterial;
+  private readonly hollow: THREE.MeshLambertMaterial;
   private readonly flat: THREE.MeshLambertMaterial;
   private readonly ground: THREE.MeshBasicMaterial;
   private readonly edges: THREE.LineBasicMaterial;
@@ -51,6 +52,8 @@ export class Scenery {
     const offset = { polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1 };
     const pane = { transparent: true, opacity: 0.8, ...offset };
     this.closed = new THREE.MeshLambertMaterial(pane);
+    // of a room, the walls behind what is inside
+    this.hollow = new THREE.MeshLambertMaterial({ side: THREE.BackSide, ...pane });
     this.flat = new THREE.MeshLambertMaterial({ side: THREE.DoubleSide, forceSinglePass: true, ...pane });
     this.ground = new THREE.MeshBasicMaterial({
       side: THREE.DoubleSide,
@@ -84,7 +87,7 @@ export class Scenery {
   }
 
   applyTheme(): void {
-    for (const surface of [this.closed, this.flat]) surface.color.set(cssColor("--obstacle"));
+    for (const surface of [this.closed, this.hollow, this.flat]) surface.color.set(cssColor("--obstacle"));
     this.edges.color.set(cssColor("--obstacle-edge"));
     this.ground.color.set(cssColor("--ground"));
     this.lines.color.set(cssColor("--grid"));
@@ -95,7 +98,8 @@ export class Scenery {
     const { scale } = this.frame;
     const { up } = this.frame.axes;
     const isClosed = shape.kind === "sphere" || shape.kind === "box" || (shape.kind === "mesh" && shape.closed);
-    const material = isClosed ? this.closed : this.flat;
+    const isHollow = shape.kind === "mesh" && shape.hollow === true;
+    const material = isHollow ? this.hollow : isClosed ? this.closed : this.flat;
     const mesh = new THREE.Mesh(geometry, color ? material.clone() : material);
     if (color) mesh.material.color.set(color);
     mesh.scale.setScalar(scale);

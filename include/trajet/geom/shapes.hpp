@@ -76,7 +76,7 @@ struct EllipsoidBody {
 struct SurfaceTriangles;
 
 /// A surface of triangles: what it encloses where it is closed, else thin and two-sided; a convex one may have grown,
-/// so that its edges are round. `make_mesh_surface` and `make_rounded_hull` (triangle_surface.hpp) make it.
+/// so that its edges are round. `make_mesh_surface` and `make_hull_surface` (triangle_surface.hpp) make it.
 struct MeshSurface {
   std::shared_ptr<const SurfaceTriangles> triangles;
 };

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "trajet/geom/box_tree.hpp"
+#include "trajet/geom/convex_faces.hpp"
 #include "trajet/geom/shapes.hpp"
 #include "trajet/geom/triangle_mesh.hpp"
 
@@ -17,7 +18,9 @@ struct SurfaceTriangles {
   bool is_closed;     ///< it encloses matter, and its triangles look outward
   double spacing;     ///< m, the mean length of an edge
   BoxTree tree;       ///< over the triangles
-  double growth = 0.0;  ///< m: the surface is this far outside the triangles; only of what is closed and convex
+  /// Of a convex surface that is one solid: where it came from a hull.
+  std::shared_ptr<const ConvexFaces> convex{};
+  double growth = 0.0;  ///< m: the surface is this far outside the triangles; only of what is convex
 
   int size() const { return static_cast<int>(mesh.triangles.size()); }
   Triangle triangle(int index) const;
@@ -27,9 +30,9 @@ struct SurfaceTriangles {
 /// the surface is closed. Throws std::domain_error if there is no triangle or a vertex is not finite.
 MeshSurface make_mesh_surface(const TriangleMesh& mesh);
 
-/// The convex hull of points with edges and corners rounded inside it: the triangles of a smaller hull, grown by
-/// `rounding` (m, > 0). Throws std::domain_error as `convex_hull` does, or if nothing is left of the smaller one.
-MeshSurface make_rounded_hull_surface(std::span<const Vector3> points, double rounding);
+/// The convex hull of points, with edges and corners rounded inside it: for `rounding` > 0 (m) the triangles of a smaller
+/// hull, grown. Throws std::domain_error as `convex_hull` does, or if nothing is left of the smaller one.
+MeshSurface make_hull_surface(std::span<const Vector3> points, double rounding = 0.0);
 
 /// How far inside the matter of a closed surface p is, negative, or else how far from the surface, m.
 double signed_distance(const MeshSurface& surface, const Vector3& p);

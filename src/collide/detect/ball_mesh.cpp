@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "contact_report.hpp"
+#include "hull_contact.hpp"
 #include "point_surface.hpp"
 #include "step_end_search.hpp"
 #include "trajet/collide/detect/contact_table.hpp"
@@ -127,19 +128,17 @@ class MeshGap {
 
 }  // namespace
 
-ContactResult first_contact_with(const MeshSurface& surface, const MovingBall& moving, const ContactMemory& memory) {
+ContactResult first_contact_with(const MeshSurface& surface, const MovingBall& ball, const ContactMemory& memory) {
   const SurfaceTriangles& triangles = *surface.triangles;
-  MovingBall ball = moving;
-  ball.radius += triangles.growth;
+  if (triangles.convex) return detail::hull_contact(surface, ball, memory);
   if (ball.radius == 0.0) return detail::point_surface_contact(triangles, ball, memory);
   const MeshGap gap(triangles, ball, detail::handled_tolerance(memory, ball));
   constexpr bool kIsSolid = true;
   const auto contact =
       detail::search_gap(gap, ball, kIsSolid, memory, detail::is_handled(memory, ball), [](double) { return true; });
   return detail::report(gap, contact, ball, kIsSolid, [&](const Vector3& position) {
-    const Vector3 nearest = nearest_place(triangles, position).point;
-    const Vector3 normal = (position - nearest).stableNormalized();
-    return detail::SurfacePoint{nearest + triangles.growth * normal, normal};
+    const Vector3 point = closest_point(surface, position);
+    return detail::SurfacePoint{point, (position - point).stableNormalized()};
   });
 }
 
