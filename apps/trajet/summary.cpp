@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <vector>
 
 #include "terminal.hpp"
@@ -17,15 +18,34 @@ namespace {
 
 std::string format(const Vector3& v) { return fmt::format("({:.6g}, {:.6g}, {:.6g})", v.x(), v.y(), v.z()); }
 
+/// A component of a vector of that length, which may be off by `bound`, rounded to the digits that hold; zero where it
+/// is too small to tell.
+double held(double component, double length, double bound) {
+  constexpr double kNothing = 1e-6;  // of the length, as many digits as are printed
+  if (!(bound > 0.0 && bound < length)) return component;
+  if (std::abs(component) <= bound) return bound < kNothing * length ? 0.0 : component;
+  const double unit = std::pow(10.0, std::floor(std::log10(bound)));
+  return std::round(component / unit) * unit;
+}
+
+std::string format(const Vector3& v, std::optional<double> bound) {
+  if (!bound) return format(v);
+  const double length = v.norm();
+  return format(Vector3(v.unaryExpr([&](double x) { return held(x, length, *bound); })));
+}
+
 std::string format(const Quaternion& q) {
   return fmt::format("({:.6g}, {:.6g}, {:.6g}, {:.6g})", q.w(), q.x(), q.y(), q.z());
 }
 
-/// A time that many `elapsed` seconds after the start: with ten digits of what has elapsed, whatever the clock shows.
-std::string format_time(double time, double elapsed) {
-  constexpr int kDigits = 10, kMostDigits = 17;
+/// A time that many `elapsed` seconds after the start, which may be off by `bound`: with ten digits of what has
+/// elapsed, whatever the clock shows, as far as they hold.
+std::string format_time(double time, double elapsed, double bound = 0.0) {
+  constexpr int kDigits = 10, kFewestDigits = 3, kMostDigits = 17;
+  const double known = std::log10(std::abs(elapsed) / bound);  // infinite or not a number where all are
+  const int of_elapsed = known < kDigits ? std::max(kFewestDigits, static_cast<int>(std::ceil(known))) : kDigits;
   const double ratio = elapsed != 0.0 ? std::abs(time / elapsed) : 1.0;
-  const int digits = ratio > 10.0 ? kDigits + static_cast<int>(std::log10(ratio)) : kDigits;
+  const int digits = ratio > 10.0 ? of_elapsed + static_cast<int>(std::log10(ratio)) : of_elapsed;
   return fmt::format("{:.{}g}", time, std::min(digits, kMostDigits));
 }
 
@@ -35,8 +55,9 @@ std::string impact_table(const std::vector<Impact>& impacts, int width) {
   TextTable table{{"time [s]", "body", "with", "kind", "point [m]", "speed before [m/s]", "after"}};
   for (const Impact& impact : impacts) {
     if (table.size() > kMostRows) break;
-    table.push_back({format_time(impact.time, impact.elapsed), impact.body, impact.with, std::string(name(impact.kind)),
-                     format(impact.point), fmt::format("{:.6g}", impact.velocity_before.norm()),
+    table.push_back({format_time(impact.time, impact.elapsed, impact.time_error_bound), impact.body, impact.with,
+                     std::string(name(impact.kind)), format(impact.point),
+                     fmt::format("{:.6g}", impact.velocity_before.norm()),
                      fmt::format("{:.6g}", impact.velocity_after.norm())});
   }
   std::string text = format_table(table, {.width = width});
@@ -62,7 +83,8 @@ std::string final_state(const Sample& final, int width) {
   if (!final.bodies.empty()) {
     TextTable table{{"at the end", "position [m]", "velocity [m/s]"}};
     for (const BodyState& body : final.bodies)
-      table.push_back({body.body, format(body.position), format(body.velocity)});
+      table.push_back({body.body, format(body.position, body.position_error_bound),
+                       format(body.velocity, body.velocity_error_bound)});
     text += format_table(table, {.width = width});
   }
   if (ranges::any_of(final.bodies, &BodyState::turns)) {

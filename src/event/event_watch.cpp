@@ -96,6 +96,14 @@ void EventWatch::turn(double t, const double* before, const double* rate_before,
   if (has_turned_) sign_ = -last_.direction;
 }
 
+void EventWatch::stand_on(double t, const double* q, int side) {
+  double value = 0.0;
+  values_(t, q, &value);
+  next_ = last_ = {};
+  sign_ = side;
+  at_zero_ = 2.0 * std::abs(value);
+}
+
 void EventWatch::forget_unless_rising(double t, const double* q, const double* rate_before, const double* rate) {
   if (!next_.found) return;
   double largest = 0.0;

@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "trajet/law/program_jacobian.hpp"
 #include "trajet/portable.hpp"
 
 namespace trajet {
@@ -75,6 +76,20 @@ void LawBranches::set_side(int index, const BorderSide& side) {
       law_jets_.set_constant(pin_value.slot, value);
       functions_.set_constant(pin_value.slot, value);
     }
+}
+
+Eigen::RowVectorXd LawBranches::gradient(int border, double t, const double* q) {
+  const auto row = static_cast<Eigen::Index>(function_of(border));
+  const auto rows = static_cast<Eigen::Index>(pinned_.functions.outputs.size());
+  const auto size = static_cast<Eigen::Index>(state_.size());
+  Eigen::MatrixXd derivatives(rows, size + 1);
+  Program functions = pinned_.functions;
+  for (Program::Constant& constant : functions.constants)
+    for (const PinValue& pin : pins_)
+      if (constant.slot == pin.slot) constant.value = pin.value;
+  ProgramJacobian jacobian(functions);
+  jacobian(t, q, derivatives.data(), derivatives.col(size).data());
+  return derivatives.row(row);
 }
 
 void LawBranches::evaluate_values(double t, const double* q) {

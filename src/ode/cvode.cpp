@@ -59,8 +59,7 @@ class Cvode::Solver {
  public:
   Solver(MultistepFormula formula, int dimension, std::unique_ptr<CvodeProblem> problem, const StepOptions& options)
       : problem_(std::move(problem)),
-        first_step_(options.step.value_or(0.0)),
-        max_step_(options.max_step),
+        options_(options),
         size_(static_cast<std::size_t>(dimension)),
         context_(make_context()),
         state_(made(N_VNew_Serial(dimension, context_.get()))),
@@ -73,11 +72,7 @@ class Cvode::Solver {
         cvode, [](int, const char*, const char*, char*, void*) {}, nullptr));
     check(CVodeInit(cvode, evaluate_rate, 0.0, state_.get()));
     check(CVodeSetUserData(cvode, this));
-    // sqrt(1/n sum (e_i/tol_i)^2) <= 1 with tol_i = (atol + rtol |q_i|) / sqrt n bounds every |e_i| by atol + rtol
-    // |q_i|
-    const double per_root = 1.0 / std::sqrt(std::max(1.0, static_cast<double>(dimension)));
-    const double atol = std::max(options.atol * per_root, std::numeric_limits<double>::min());
-    check(CVodeSStolerances(cvode, options.rtol * per_root, atol));
+    check(CVodeWFtolerances(cvode, evaluate_weights));
     check(CVodeSetMaxErrTestFails(cvode, kMaxFailures));
     check(CVodeSetMaxConvFails(cvode, kMaxFailures));
     if (formula == MultistepFormula::adams) {
@@ -152,7 +147,8 @@ class Cvode::Solver {
     check(CVodeReInit(cvode, time_, state_.get()));
     // CVODE finds a first step of its own, unless the limit is too near for it.
     const bool is_near = distance < 1e3 * std::numeric_limits<double>::epsilon() * std::abs(time_);
-    check(CVodeSetInitStep(cvode, direction * (is_near ? distance : std::min(first_step_, distance))));
+    const double first = options_.step.value_or(0.0);  // 0: CVODE's own
+    check(CVodeSetInitStep(cvode, direction * (is_near ? distance : std::min(first, distance))));
     direction_ = direction;
   }
 
@@ -161,7 +157,7 @@ class Cvode::Solver {
     const double smallest = smallest_step(time_);
     // CVODE minds that its limits do not cross on the way
     check(CVodeSetMinStep(cvode, 0.0));
-    if (std::isfinite(max_step_)) check(CVodeSetMaxStep(cvode, std::max(max_step_, smallest)));
+    if (std::isfinite(options_.max_step)) check(CVodeSetMaxStep(cvode, std::max(options_.max_step, smallest)));
     check(CVodeSetMinStep(cvode, smallest));
   }
 
@@ -179,6 +175,17 @@ class Cvode::Solver {
     self.problem_->rate(t, N_VGetArrayPointer(q), rate);
     return self.judge(all_finite(rate, self.size_));
   }
+  /// sqrt(1/n sum (e_i w_i)^2) <= 1 with w_i = sqrt n / (atol + rtol |q_i|) bounds every |e_i| by atol + rtol |q_i|.
+  static int evaluate_weights(N_Vector q, N_Vector weights, void* data) {
+    const auto& self = *static_cast<Solver*>(data);
+    const double root = std::sqrt(std::max(1.0, static_cast<double>(self.size_)));
+    for (std::size_t i = 0; i < self.size_; ++i) {
+      const double tolerance = absolute_tolerance(self.options_, static_cast<Eigen::Index>(i)) +
+                               self.options_.rtol * std::abs(N_VGetArrayPointer(q)[i]);
+      N_VGetArrayPointer(weights)[i] = 1.0 / std::max(tolerance / root, std::numeric_limits<double>::min());
+    }
+    return 0;
+  }
   static int evaluate_jacobian(double t, N_Vector q, N_Vector, SUNMatrix jacobian, void* data, N_Vector, N_Vector,
                                N_Vector) {
     auto& self = *static_cast<Solver*>(data);
@@ -194,8 +201,7 @@ class Cvode::Solver {
   }
 
   std::unique_ptr<CvodeProblem> problem_;
-  double first_step_;  // s; 0: CVODE's own
-  double max_step_;    // s
+  StepOptions options_;
   std::size_t size_;
   StepStatistics statistics_;
   long rejected_before_ = 0;  // this start

@@ -83,6 +83,7 @@ void set_method(const MethodOptions& method, const SceneNumbers& numbers, World&
   StepOptions& options = world.step_options;
   options.rtol = method.rtol ? numbers.not_negative(*method.rtol, "rtol") : kDefaultTolerance;
   options.atol = method.atol ? numbers.not_negative(*method.atol, "atol") : kDefaultTolerance;
+  world.atol_follows_scale = !method.atol;
   if (options.rtol == 0.0 && options.atol == 0.0)
     throw InputError(method.rtol->where(), "rtol and atol must not both be zero");
   if (method.max_step) options.max_step = numbers.positive(*method.max_step, "max_step");

@@ -31,6 +31,7 @@ void BranchedStepper::start(double t, const State& q) {
   state_ = q;
   extended_.reset();
   passed_.reset();
+  arrival_.reset();
   begins_ = true;
 }
 
@@ -77,10 +78,23 @@ void BranchedStepper::record_slides(const std::vector<SlidingBorder>& before) {
     if (!is_among(before, each.border)) add(each.border, true);
 }
 
+void BranchedStepper::find_switch() {
+  if (!arrival_) return;
+  const auto size = arrival_->state.size();
+  State behind(size);
+  system_.rate(arrival_->time, arrival_->state.data(), behind.data());
+  const Eigen::RowVectorXd by_state = arrival_->gradient.head(size);
+  const double speed = by_state.dot(arrival_->rate) + arrival_->gradient[size];
+  const Eigen::MatrixXd jump = (behind - arrival_->rate) * (by_state / speed);
+  if (jump.allFinite()) switch_ = Eigen::MatrixXd::Identity(size, size) + jump;
+  arrival_.reset();
+}
+
 void BranchedStepper::undo_step() { extended_ = stepper_->extended_state(0.0L); }
 
 StepStatus BranchedStepper::advance(double t_limit) {
   slides_.clear();
+  switch_.reset();
   system_.keep_within_piece();
   const double direction = t_limit < time_ ? -1.0 : 1.0;
   int changes = 0;
@@ -101,14 +115,17 @@ StepStatus BranchedStepper::advance(double t_limit) {
     retake_to_end();
     if (!end_) break;
     if (end_->is_known && std::abs(end_->time - time_) >= smallest_step(time_)) {
+      find_switch();
       cut(*end_);
       return StepStatus::ok;
     }
+    if (end_->is_known) arrive(*end_);
     undo_step();
     begins_ = true;
     may_pin = end_->is_known && ++changes <= kMaxBranchChanges;
     passed_ = end_;
   }
+  find_switch();
   time_ = stepper_->time();
   state_ = stepper_->state();
   extended_.reset();
@@ -168,6 +185,15 @@ void BranchedStepper::cut(const LawBranches::End& end) {
   state_ = segment_.state(end.time);
   passed_ = end;
   begins_ = true;
+  arrive(end);
+}
+
+void BranchedStepper::arrive(const LawBranches::End& end) {
+  // a law does not jump where it lets go; and what came here first has come by the law before
+  if (end.is_slip || arrival_) return;
+  Arrival arrival{time_, state_, State(state_.size()), branches_->gradient(end.border, time_, state_.data())};
+  system_.rate(time_, state_.data(), arrival.rate.data());
+  arrival_ = std::move(arrival);
 }
 
 bool BranchedStepper::amend(const State& q) {

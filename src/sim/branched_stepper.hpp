@@ -49,6 +49,11 @@ class BranchedStepper final : public AnyStepper {
   bool is_sliding() const { return !branches_->sliding().empty(); }
   /// The law on the last step.
   void rate(double t, const double* q, double* dq) { system_.rate(t, q, dq); }
+  /// Where the last step has begun by passing a border: the derivative of the state behind by the state before it, of
+  /// which the time of passing is part; nothing where it was taken or the step has begun otherwise.  // (state x state)
+  std::optional<Eigen::MatrixXd> take_switch() { return std::exchange(switch_, std::nullopt); }
+  /// The law of the last step.
+  System& law() { return system_; }
   /// The component of the state whose rate chooses in a way that was not decided; -1 where that did not end the motion.
   int undecided_component() const { return undecided_component_; }
 
@@ -56,6 +61,10 @@ class BranchedStepper final : public AnyStepper {
   /// The stepper goes on from the state, on the branches that are found there, or on none.
   void begin(double direction, bool may_pin);
   void record_slides(const std::vector<SlidingBorder>& before);
+  /// The motion stands at the end of a branch, by the law before.
+  void arrive(const LawBranches::End& end);
+  /// A step has begun where the last one has come to a border.
+  void find_switch();
   /// The motion is back where the last step began: it was none.
   void undo_step();
   /// A step towards `t_limit`, and the end of a branch on it. One of a set length is made shorter where its law is lost
@@ -80,6 +89,14 @@ class BranchedStepper final : public AnyStepper {
   std::optional<LawBranches::End> passed_;  // where the stepper is to begin
   bool begins_ = true;                      // the stepper does not stand there yet
   std::vector<Slide> slides_;
+  /// How a step has come to a border.
+  struct Arrival {
+    double time;  // s
+    State state, rate;
+    Eigen::RowVectorXd gradient;  // of the border, by state and time
+  };
+  std::optional<Arrival> arrival_;  // of the last step
+  std::optional<Eigen::MatrixXd> switch_;
   int undecided_ = 0;  // so often was it not decided which branch holds
   int undecided_component_ = -1;
 };

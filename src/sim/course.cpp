@@ -1,10 +1,12 @@
 #include "course.hpp"
 
 #include <algorithm>
+#include <array>
 #include <iterator>
 #include <utility>
 
 #include "instant.hpp"
+#include "trajet/law/evaluate.hpp"
 #include "trajet/math/polynomial.hpp"
 #include "trajet/portable.hpp"
 #include "trajet/sim/state_at.hpp"
@@ -31,6 +33,8 @@ Course::Course(const World& world, int group)
     watches_.push_back({Crossing::Kind::event, event, EventWatch(definition.when, definition.direction)});
   }
   piece_ = {0.0, 0.0, 0.0, true};
+  if (keeps_tolerance() && world.atol_follows_scale) scale_.emplace(world, group, orientations_.tolerance_factor());
+  if (keeps_tolerance() && !world.atol_follows_scale) tolerance_check_.emplace(world, group);
   use_contacts();
   begin(0.0, this->group().start, nullptr);
 }
@@ -43,35 +47,84 @@ void Course::use_contacts() {
   stepper_.reset();
   held_system_.reset();
   std::erase_if(watches_, [](const Watch& watch) { return watch.kind != Crossing::Kind::event; });
-  if (!contacts_.empty()) {
-    Program law = group().law;
-    for (const int body : group().bodies) {
-      const int offset = world_.bodies[static_cast<std::size_t>(body)].offset;
-      const Support support = support_of(contacts_, offset);
-      for (const Vector3& direction : support.blocked) law = hold(law, offset, direction);
-      auto release = support.release.begin();
-      for (RestingContact& contact : contacts_)
-        if (contact.offset == offset) contact.release = *release++;
-    }
-    held_system_ = std::make_unique<ProgramSystem>(law);
-    for (std::size_t i = 0; i < contacts_.size(); ++i) {
-      const Shape& shape = world_.obstacles[static_cast<std::size_t>(contacts_[i].obstacle)].shape;
-      const ReleaseConditions conditions =
-          release_conditions(group().law, shape, contacts_[i], support_of(contacts_, contacts_[i].offset).blocked);
-      const auto watch = [&](Crossing::Kind kind, const Program& condition) {
-        watches_.push_back({kind, static_cast<int>(i), EventWatch(condition, CrossingDirection::rising)});
-      };
-      watch(Crossing::Kind::pull, conditions.pull);
-      for (const Program& condition : conditions.past_edges) watch(Crossing::Kind::past_edge, condition);
-    }
-  }
+  if (!contacts_.empty() || !holds_.empty())
+    held_system_ = std::make_unique<ProgramSystem>(law_with(contacts_, holds_));
+  watch_contacts();
+  watch_holds();
   make_stepper();
+}
+
+Program Course::law_with(const std::vector<RestingContact>& contacts, const std::vector<EventHold>& holds) const {
+  Program law = group().law;
+  for (const int body : group().bodies) {
+    const int offset = world_.bodies[static_cast<std::size_t>(body)].offset;
+    for (const Vector3& direction : support_of(contacts, offset).blocked) law = hold(law, offset, direction);
+  }
+  for (const EventHold& each : holds)
+    law = hold_on_border(law, world_.events[static_cast<std::size_t>(each.event)].when, each.direction)->law;
+  return law;
+}
+
+void Course::watch_contacts() {
+  for (const int body : group().bodies) {
+    const int offset = world_.bodies[static_cast<std::size_t>(body)].offset;
+    const Support support = support_of(contacts_, offset);
+    auto release = support.release.begin();
+    for (RestingContact& contact : contacts_)
+      if (contact.offset == offset) contact.release = *release++;
+  }
+  for (std::size_t i = 0; i < contacts_.size(); ++i) {
+    const Shape& shape = world_.obstacles[static_cast<std::size_t>(contacts_[i].obstacle)].shape;
+    const ReleaseConditions conditions =
+        release_conditions(group().law, shape, contacts_[i], support_of(contacts_, contacts_[i].offset).blocked);
+    const auto watch = [&](Crossing::Kind kind, const Program& condition) {
+      watches_.push_back({kind, static_cast<int>(i), EventWatch(condition, CrossingDirection::rising)});
+    };
+    watch(Crossing::Kind::pull, conditions.pull);
+    for (const Program& condition : conditions.past_edges) watch(Crossing::Kind::past_edge, condition);
+  }
+}
+
+void Course::watch_holds() {
+  for (std::size_t i = 0; i < holds_.size(); ++i) {
+    std::vector<EventHold> others = holds_;
+    others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
+    const EventHold& hold = holds_[i];
+    const Program& when = world_.events[static_cast<std::size_t>(hold.event)].when;
+    const Program pull = hold_on_border(law_with(contacts_, others), when, hold.direction)->pull;
+    const auto away = hold.side > 0 ? CrossingDirection::rising : CrossingDirection::falling;
+    watches_.push_back({Crossing::Kind::let_go, static_cast<int>(i), EventWatch(pull, away)});
+  }
+}
+
+bool Course::is_held(int event) const {
+  return ranges::any_of(holds_, [event](const EventHold& hold) { return hold.event == event; });
+}
+
+std::vector<EventHold> Course::kept_holds(const Instant& instant) const {
+  std::vector<EventHold> kept = instant.holds;
+  std::erase_if(kept, [&](const EventHold& hold) {
+    if (!is_held(hold.event)) return false;  // it begins now
+    std::array<double, 3> before{}, behind{};
+    Evaluator<double> evaluate(hold.border);
+    evaluate(instant.time(), instant.before().data(), before.data());
+    evaluate(instant.time(), instant.q.data(), behind.data());
+    return before[0] != behind[0] || before[1] != behind[1];
+  });
+  return kept;
+}
+
+bool Course::keeps_tolerance() const {
+  // steps of parabolas have no error
+  const int degree = free_system_->polynomial_degree();
+  return world_.method->control == StepControl::adaptive && (degree < 0 || degree > 2);
 }
 
 void Course::make_stepper() {
   StepOptions options = world_.step_options;
   options.rtol *= orientations_.tolerance_factor();
   options.atol *= orientations_.tolerance_factor();
+  if (scale_) options.component_atol = scale_->tolerances();
   ProgramSystem& law = held_system_ ? *held_system_ : *free_system_;
   branched_ = nullptr;
   if (!chooses_by_state(law.program())) {
@@ -95,6 +148,7 @@ void Course::pass_switch() {
   enter_piece(t);
   // a law that only has a corner there goes on from the rate that the method knows
   if (!switches_.may_jump()) return;
+  if (scale_) scale_->begin(t, end_state_, law());
   if (const auto extended = extended_state(static_cast<Extended>(t) - segment_.t0())) {
     stepper_->start_extended(t, *extended);
   } else {
@@ -108,6 +162,7 @@ void Course::begin(double t, const Eigen::VectorXd& q, const Instant* instant) {
   end_state_ = q;
   orientations_.begin(end_state_, before);
   closed_rotations_.begin(t, end_state_, before);
+  if (scale_) scale_->begin(t, end_state_, law());
   if (const auto extended = instant != nullptr ? instant->extended() : std::nullopt) {
     // orientations were put right in double precision
     const auto is_right = (extended->cast<double>().array() == end_state_.array());
@@ -140,17 +195,21 @@ std::optional<MotionPiece> Course::hand_on(double t) {
 
 void Course::restart(const Instant& instant) {
   const double t = instant.time();
-  error_.pass(law(), segment_, t);
+  pass_error(t);
   error_.jump(instant.derivative);
   const auto same = [](const RestingContact& a, const RestingContact& b) {
     return a.body == b.body && a.obstacle == b.obstacle && a.normal == b.normal && a.point == b.point;
   };
-  const bool is_held_anew = !ranges::equal(contacts_, instant.contacts, same);
+  const std::vector<EventHold> held_before = std::exchange(holds_, kept_holds(instant));
+  const bool is_held_anew = !ranges::equal(contacts_, instant.contacts, same) ||
+                            !ranges::equal(held_before, holds_, {}, &EventHold::event, &EventHold::event);
   if (is_held_anew) {
     contacts_ = instant.contacts;
     use_contacts();
   }
   restart_watches(instant, is_held_anew);
+  for (const EventHold& hold : held_before)
+    if (!is_held(hold.event)) watches_[place_of(hold.event)].watch.stand_on(t, instant.q.data(), hold.side);
   begin(t, instant.q, &instant);
 }
 
@@ -175,22 +234,33 @@ void Course::restart_watches(const Instant& instant, bool is_held_anew) {
   }
 }
 
+void Course::pass_error(double t) {
+  error_.pass(law(), segment_, t);
+  // the next step may be on another branch of the law
+  if (branched_ != nullptr) error_.settle();
+}
+
 StepStatus Course::advance() {
-  if (segment_.duration() != 0.0) error_.pass(law(), segment_, segment_.t1());
+  if (segment_.duration() != 0.0) pass_error(segment_.t1());
   if (rest_of_step_.empty()) {
     const bool has_switch = !switches_.empty() && piece_.is_switch;
     if (has_switch && stepper_->time() == piece_.end) pass_switch();
     const double limit = !switches_.empty() && piece_.is_switch ? piece_.end : world_.duration;
     if (const StepStatus status = stepper_->advance(limit); status != StepStatus::ok) return status;
+    if (branched_ != nullptr)
+      if (const auto jump = branched_->take_switch()) error_.jump(*jump);
     stepper_->fill_segment(segment_);
     end_state_ = stepper_->state();
+    if (tolerance_check_) tolerance_check_->take(end_state_);
+    if (scale_) scale_->grow(segment_.t1(), end_state_, segment_.duration(), law());
     if (!orientations_.empty()) put_orientations_right();
   }
   if (!rest_of_step_.empty()) {
     segment_ = std::move(rest_of_step_.front());
     rest_of_step_.pop_front();
   }
-  for (Watch& watch : watches_) watch.watch.search(segment_, segment_.t0());
+  for (Watch& watch : watches_)
+    if (watch.kind != Crossing::Kind::event || !is_held(watch.index)) watch.watch.search(segment_, segment_.t0());
   find_next();
   return StepStatus::ok;
 }
@@ -223,7 +293,7 @@ void Course::find_next() {
   const double direction = segment_.t1() < segment_.t0() ? -1.0 : 1.0;
   const Watch* first = nullptr;
   for (const Watch& watch : watches_) {
-    if (!watch.watch.next().found) continue;
+    if (!watch.watch.next().found || (watch.kind == Crossing::Kind::event && is_held(watch.index))) continue;
     const double ahead = direction * (next_.time - watch.watch.next().time);
     if (ahead < 0.0 || (ahead == 0.0 && first != nullptr)) continue;
     first = &watch;
@@ -281,6 +351,12 @@ Eigen::VectorXd Course::rate(double t, const Eigen::VectorXd& q) const {
   if (!held_system_) return free_rate(t, q);
   held_system_->rate(t, q.data(), dq.data());
   return dq;
+}
+
+double Course::velocity_error(const Eigen::VectorXd& direction, double t) {
+  constexpr double kSteps = 10.0;  // whose errors may have added up
+  if (tolerance_warning().empty()) return 0.0;
+  return std::max(error_bound_along(direction, t), kSteps * world_.step_options.atol);
 }
 
 StepStatistics Course::statistics() const {

@@ -8,8 +8,11 @@
 
 #include "branched_stepper.hpp"
 #include "closed_rotations.hpp"
+#include "event_hold.hpp"
+#include "motion_scale.hpp"
 #include "orientation_upkeep.hpp"
 #include "state_error.hpp"
+#include "tolerance_check.hpp"
 #include "trajet/collide/sustain/resting_contact.hpp"
 #include "trajet/event/event_watch.hpp"
 #include "trajet/event/time_switches.hpp"
@@ -28,11 +31,11 @@ Support support_of(const std::vector<RestingContact>& contacts, int offset);
 
 /// Something that happens to a course on its current Segment by its own motion.
 struct Crossing {
-  enum class Kind { segment_end, event, pull, past_edge };
+  enum class Kind { segment_end, event, pull, past_edge, let_go };
   double time = 0.0;
   Kind kind = Kind::segment_end;
-  int index =
-      0;  ///< of the event in World::events; else of the lasting contact that would pull or has come to its edge
+  int index = 0;  ///< of the event in World::events; of the lasting contact that would pull or has come to its edge, or
+                  ///< of the hold that lets go
   double error_bound = 0.0;  ///< s
 };
 
@@ -71,6 +74,10 @@ class Course {
 
   const Segment<>& segment() const { return segment_; }
   const std::vector<RestingContact>& contacts() const { return contacts_; }
+  /// The events at which the motion stays.
+  const std::vector<EventHold>& holds() const { return holds_; }
+  /// The group's law with lasting contacts and holds.
+  Program law_with(const std::vector<RestingContact>& contacts, const std::vector<EventHold>& holds) const;
   /// The state at a time on the current Segment.
   Eigen::VectorXd state(double t) const;
   /// Whether the state is carried in extended precision.
@@ -97,6 +104,11 @@ class Course {
   StepStatistics statistics() const;
   /// What the method has to say of its work.
   std::vector<std::string> warnings() const;
+  /// Where the tolerance that was asked for is coarser than the motion, a sentence that says so; else empty.
+  std::string tolerance_warning() const { return tolerance_check_ ? tolerance_check_->warning() : std::string(); }
+  /// Where the tolerance is coarser than the motion, how far the velocity may be off along a direction (unit) of the
+  /// state: by the errors of all steps, or by what it lets some steps be off; else 0.
+  double velocity_error(const Eigen::VectorXd& direction, double t);
 
  private:
   struct Watch {
@@ -105,10 +117,21 @@ class Course {
     EventWatch watch;
   };
 
-  System& law() { return held_system_ ? *held_system_ : *free_system_; }
-  /// The law with the present lasting contacts, a stepper for it, and watches for the contacts' ends.
+  /// Of the current Segment.
+  System& law() {
+    if (branched_ != nullptr) return branched_->law();
+    return held_system_ ? *held_system_ : *free_system_;
+  }
+  /// The law with the present lasting contacts and holds, a stepper for it, and watches for their ends.
   void use_contacts();
+  void watch_contacts();
+  void watch_holds();
+  /// Of the holds of an instant, those that it has not kicked off their borders.
+  std::vector<EventHold> kept_holds(const Instant& instant) const;
+  bool is_held(int event) const;
   void make_stepper();
+  /// Whether the method's steps are as long as a tolerance lets them be.
+  bool keeps_tolerance() const;
   /// `instant`: at which the course goes on; null at the start.
   void begin(double t, const Eigen::VectorXd& q, const Instant* instant);
   /// `is_held_anew`: the lasting contacts have changed.
@@ -117,6 +140,8 @@ class Course {
   void enter_piece(double t);
   /// The step has ended at a switch of the law: goes on behind it.
   void pass_switch();
+  /// The current Segment is over: takes on how far it may have gone astray.
+  void pass_error(double t);
   /// Puts orientations right where a step has ended, on the Segment too.
   void put_orientations_right();
   /// Replaces the stepper's state by one that means the same.
@@ -128,7 +153,7 @@ class Course {
   const World& world_;
   int group_;
   std::unique_ptr<ProgramSystem> free_system_;
-  std::unique_ptr<ProgramSystem> held_system_;  // with contacts only
+  std::unique_ptr<ProgramSystem> held_system_;  // with contacts or holds only
   std::unique_ptr<AnyStepper> stepper_;
   BranchedStepper* branched_ = nullptr;  // the stepper, where the law has choices by the state
   TimeSwitches switches_;
@@ -136,6 +161,8 @@ class Course {
   OrientationUpkeep orientations_;
   ClosedRotations closed_rotations_;
   StateError error_;
+  std::optional<MotionScale> scale_;               // where tolerances follow it
+  std::optional<ToleranceCheck> tolerance_check_;  // where one was asked for
   StepStatistics finished_steppers_;
   std::vector<std::string> finished_warnings_;
   Segment<> segment_;
@@ -144,6 +171,7 @@ class Course {
   double handed_on_ = 0.0;              // s
   bool begins_anew_ = true;             // nothing was handed on since the last start
   std::vector<RestingContact> contacts_;
+  std::vector<EventHold> holds_;
   std::vector<Watch> watches_;  // the events', then those of contacts
   Crossing next_;
 };

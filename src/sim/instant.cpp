@@ -7,6 +7,7 @@ namespace trajet {
 Instant::Instant(const Course& course, double time)
     : q(course.state(time)),
       contacts(course.contacts()),
+      holds(course.holds()),
       derivative(Eigen::MatrixXd::Identity(q.size(), q.size())),
       course_(course),
       time_(time),

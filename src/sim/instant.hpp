@@ -33,6 +33,7 @@ class Instant {
 
   Eigen::VectorXd q;                     ///< the state in which the course goes on
   std::vector<RestingContact> contacts;  ///< the lasting contacts with which it goes on
+  std::vector<EventHold> holds;          ///< the events at which it stays
   /// What is known of pairs behind this instant.
   std::vector<std::pair<PairId, ContactMemory>> memories;
 

@@ -187,6 +187,11 @@ RunResult Recorder::result() {
                                              : statistics.proposed_step;
     for (const std::string& warning : course->warnings()) warn(warning);
   }
+  for (const auto& course : courses_)
+    if (const std::string warning = course->tolerance_warning(); !warning.empty()) {
+      warn(warning);
+      break;
+    }
   return std::move(result_);
 }
 

@@ -63,6 +63,8 @@ void RunLoop::handle_contact(int index, const Pair& met) {
   if (last_impacts_[static_cast<std::size_t>(pair.id.body)].count_at(time) > kMaxImpactsAtOnce)
     return fail(time, "body '" + body.name + "' has impact after impact with '" + obstacle.name + "' at one instant");
 
+  if (const std::string doubt = describe_doubt(moving, pair); !doubt.empty())
+    return fail(time, "contact of " + names + " is unresolved: " + doubt);
   for (const int each : moving.group().bodies) encounters_.bound_times(each, moving);
   Impact impact = describe(world_, pair, moving.state(time));
   impact.elapsed = time;
@@ -97,6 +99,23 @@ bool RunLoop::goes_on_sliding(int index, const Pair& pair) {
   encounters_.search(body, moving, moving.next().time);
   enqueue(index);
   return true;
+}
+
+std::string RunLoop::describe_doubt(Course& moving, const Pair& pair) {
+  const int offset = body_of(pair).offset;
+  const double time = pair.contact.time;
+  if (!is_hit(pair.contact) || !is_round(body_of(pair).solid)) return {};
+  const Eigen::VectorXd q = moving.state(time);
+  const RelativeMotion motion = encounters_.relative_motion(pair.id, time, q, moving.rate(time, q));
+  const double speed = -pair.contact.normal.dot(motion.velocity);
+  const double pull = -pair.contact.normal.dot(motion.acceleration);
+  if (speed <= 0.0 || is_lying(speed, std::max(0.0, pull), pair.contact.memory.tolerance)) return {};
+  Eigen::VectorXd along = Eigen::VectorXd::Zero(q.size());
+  along.segment<3>(offset + 3) = pair.contact.normal;
+  const double error = moving.velocity_error(along, time);
+  if (!(error >= speed)) return {};
+  return "they approach with " + shortest_text(speed) + " m/s, and the velocity may be off by " + shortest_text(error) +
+         " m/s: choose a finer tolerance or step";
 }
 
 bool RunLoop::goes_on_from_contact(int index, const Pair& pair, const Impact& impact) {

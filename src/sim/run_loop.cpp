@@ -116,6 +116,9 @@ bool RunLoop::step() {
         case Crossing::Kind::past_edge:
           handle_contact_end(index);
           break;
+        case Crossing::Kind::let_go:
+          handle_hold_end(index);
+          break;
       }
     }
   }
@@ -193,7 +196,12 @@ void RunLoop::go_on(int index, const Instant& instant) {
   Course& moving = course(index);
   recorder_.motion(moving, instant.time());
   for (const int body : moving.group().bodies) encounters_.keep(body, moving, instant.time());
+  const std::vector<EventHold> held_before = moving.holds();
   moving.restart(instant);
+  for (const EventHold& hold : held_before) {
+    if (ranges::any_of(moving.holds(), [&](const EventHold& each) { return each.event == hold.event; })) continue;
+    recorder_.event(instant.time(), "slips", hold.side, name_of_event(hold.event));
+  }
   encounters_.take(instant);
 }
 
@@ -224,22 +232,47 @@ void RunLoop::handle_event(int index, double time) {
     case EventAction::set:
       break;
   }
-  if (const std::string reason = accumulates(index, crossing.index, time); !reason.empty()) return fail(time, reason);
+  if (const std::optional<double> limit = limit_of(index, crossing.index, time)) {
+    if (hold(index, crossing.index, time, *limit)) return;
+    return fail(time, name_of_event(crossing.index) + " happens faster and faster, infinitely often before t = " +
+                          shortest_text(world_.epoch + *limit) +
+                          " s: what its set turns back or stops, the law drives across zero again; the motion behind "
+                          "that time is not followed");
+  }
   set(index, crossing.index, time);
 }
 
-std::string RunLoop::accumulates(int index, int event, double time) {
+std::string RunLoop::name_of_event(int event) const {
+  return "event '" + world_.events[static_cast<std::size_t>(event)].name + "'";
+}
+
+bool RunLoop::hold(int index, int event, double time, double limit) {
+  Course& moving = course(index);
+  const int direction = moving.event_crossing(event).direction;
+  Instant instant(moving, time);
+  if (!hold_at_limit(world_, event, direction, instant)) return false;
+  recorder_.event(direction_ * (limit - time) > 0.0 ? limit : time, "sticks", direction, name_of_event(event));
+  moving.take_event(event);
+  go_on(index, instant);
+  advance(index);
+  return true;
+}
+
+void RunLoop::handle_hold_end(int index) {
+  Course& moving = course(index);
+  Instant instant(moving, moving.next().time);
+  instant.holds.erase(instant.holds.begin() + moving.next().index);
+  go_on(index, instant);
+  advance(index);
+}
+
+std::optional<double> RunLoop::limit_of(int index, int event, double time) {
   Accumulation& times = accumulations_[static_cast<std::size_t>(event)];
   times.happen(time);
   const double rounding = kUnitRoundoff * std::abs(time);
   const bool is_stopped = course(index).has_turned(event) && std::abs(times.interval()) <= kSameTime * rounding;
   const std::optional<double> limit = is_stopped ? times.extrapolated_limit() : times.limit(kNearLimit * rounding);
-  if (!limit && !is_stopped) return {};
-  return "event '" + world_.events[static_cast<std::size_t>(event)].name +
-         "' happens faster and faster, infinitely often before t = " +
-         shortest_text(world_.epoch + limit.value_or(time)) +
-         " s: what its set turns back or stops, the law drives across zero again; the motion behind that time is not "
-         "followed";
+  return limit || !is_stopped ? limit : std::optional(time);
 }
 
 void RunLoop::set(int index, int event_index, double time) {

@@ -52,17 +52,24 @@ class RunLoop {
 
   bool is_segment_end(int course, const Incident& incident) const;
   void handle_event(int course, double time);
-  /// Why the motion cannot be followed behind the event, if it happens faster and faster; else nothing.
-  std::string accumulates(int course, int event, double time);
+  /// The time before which the event happens infinitely often, if it happens faster and faster; else nothing.
+  std::optional<double> limit_of(int course, int event, double time);
+  /// The motion stays at the limit of the event, at time `limit`; false if that cannot be decided.
+  bool hold(int course, int event, double time, double limit);
+  std::string name_of_event(int event) const;
   /// The event's `set` changes the state.
   void set(int course, int event, double time);
   void handle_contact(int course, const Pair& met);
   void handle_contact_end(int course);
+  /// What has held the motion where an event happens lets it go.
+  void handle_hold_end(int course);
   /// A time behind a contact's last at which the force surely points away from it: what has left then is not found in
   /// it again.
   double end_of_pull(const Course& moving, const Crossing& crossing) const;
   /// Whether a face on which the body slides goes on on the obstacle that it meets; then the motion does.
   bool goes_on_sliding(int course, const Pair& met);
+  /// Why it is not certain that a contact is one, as far as the motion is known; else empty.
+  std::string describe_doubt(Course& moving, const Pair& pair);
   /// Whether a contact is the last one still, from which the body moves away by its law; then the motion goes on.
   bool goes_on_from_contact(int course, const Pair& pair, const Impact& impact);
   void bounce(int course, Pair pair, Impact impact);

@@ -20,6 +20,31 @@ Eigen::MatrixXd jacobian(System& law, double t, const Eigen::VectorXd& q) {
   return dg_dq;
 }
 
+/// exp(a), where the units of the components may be far apart: powers of two make rows and columns alike in size first
+/// [ParlettReinsch1969].
+Eigen::MatrixXd exponential(Eigen::MatrixXd a) {
+  constexpr int kMostRounds = 20;
+  Eigen::VectorXd scale = Eigen::VectorXd::Ones(a.rows());
+  bool has_changed = true;
+  for (int round = 0; has_changed && round < kMostRounds; ++round) {
+    has_changed = false;
+    for (Eigen::Index i = 0; i < a.rows(); ++i) {
+      const double own = std::abs(a(i, i));
+      const double row = a.row(i).cwiseAbs().sum() - own, column = a.col(i).cwiseAbs().sum() - own;
+      if (!(row > 0.0 && column > 0.0)) continue;
+      const int power = std::ilogb(row / column) / 2;
+      if (power == 0) continue;
+      has_changed = true;
+      const double factor = std::ldexp(1.0, power);
+      scale[i] *= factor;
+      a.row(i) /= factor;
+      a.col(i) *= factor;
+    }
+  }
+  const Eigen::MatrixXd balanced = a.exp();
+  return scale.asDiagonal() * balanced * scale.cwiseInverse().asDiagonal();
+}
+
 }  // namespace
 
 StateError::StateError(int dimension, double roundoff) : roundoff_(roundoff), generators_(dimension, 0) {}
@@ -46,7 +71,7 @@ Eigen::MatrixXd StateError::transition(const Step& step) {
                                 jacobian(*step.law, step.start + h, step.at_end)) /
                                6.0;
   if (!mean.allFinite()) return Eigen::MatrixXd::Identity(n, n);
-  const Eigen::MatrixXd result = (h * mean).exp();
+  const Eigen::MatrixXd result = exponential(h * mean);
   return result.allFinite() ? result : Eigen::MatrixXd::Identity(n, n);
 }
 

@@ -43,6 +43,8 @@ class EventWatch {
   /// Behind a restart: a rising crossing that was to come at this time is none if the program does not rise. The state
   /// changed by `rate_before` and changes by `rate` now.
   void forget_unless_rising(double t, const double* q, const double* rate_before, const double* rate);
+  /// Behind a restart: the motion was held on zero, and goes on as if it came from that side, -1 or 1.
+  void stand_on(double t, const double* q, int side);
   /// Whether the last restart was such a turn.
   bool has_turned() const { return has_turned_; }
   /// Finds the first crossing on the Segment behind `from`, which lies on it; remembered until the watch moves on.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <memory>
 #include <optional>
 #include <span>
@@ -48,6 +49,10 @@ class LawBranches {
   std::optional<End> find_end(const Segment<>& segment);
   /// The motion goes on from an end at time `t` in state `q`, on the branches that it finds there.
   Finding pass(const End& end, double t, const double* q, double direction);
+
+  /// How fast a border's function changes with each component of the state and, the last one, with time, on the
+  /// branches that were found last.
+  Eigen::RowVectorXd gradient(int border, double t, const double* q);
 
   /// A constant of the pinned law.
   struct PinValue {

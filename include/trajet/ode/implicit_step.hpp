@@ -14,17 +14,18 @@ namespace trajet::detail {
 
 /// The per-component tolerance atol + rtol |q|, and what it measures: the largest component of a vector over it.
 struct Tolerance {
-  double rtol;
-  double atol;
+  StepOptions options;
 
-  double of(double q) const { return std::max(atol + rtol * std::abs(q), std::numeric_limits<double>::min()); }
+  double of(Eigen::Index component, double q) const {
+    return absolute_tolerance(options, component) + options.rtol * std::abs(q);
+  }
 
   /// Not-a-number if any component of `vector` is.
   template <class Vector, class State>
   double norm(const Vector& vector, const State& q) const {
     double largest = 0.0;
     for (Eigen::Index i = 0; i < q.size(); ++i) {
-      const double x = std::abs(vector[i]) / of(q[i]);
+      const double x = std::abs(vector[i]) / of(i, q[i]);
       if (!(x <= largest)) largest = x;
       if (std::isnan(largest)) break;
     }
@@ -41,7 +42,7 @@ class ImplicitStep {
  public:
   using State = Eigen::Matrix<double, Dim, 1>;
 
-  explicit ImplicitStep(Rate rate, Tolerance tolerance) : rate_(std::move(rate)), tolerance_(tolerance) {}
+  explicit ImplicitStep(Rate rate, Tolerance tolerance) : rate_(std::move(rate)), tolerance_(std::move(tolerance)) {}
 
   double t0() const { return t0_; }
   double t1() const { return t1_; }

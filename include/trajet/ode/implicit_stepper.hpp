@@ -30,9 +30,7 @@ class ImplicitStepper {
   static constexpr int kDimension = Dim;
 
   ImplicitStepper(Rate rate, const StepOptions& options)
-      : step_(std::move(rate), {options.rtol, options.atol}),
-        first_step_(options.step.value_or(0.0)),
-        max_step_(options.max_step) {
+      : step_(std::move(rate), {options}), first_step_(options.step.value_or(0.0)), max_step_(options.max_step) {
     check_step_control(options);
   }
 

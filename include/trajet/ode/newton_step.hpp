@@ -76,8 +76,8 @@ class NewtonStep : public ImplicitStep<Rate, Dim> {
     double largest = 0.0;
     for (Eigen::Index i = 0; i < q.size(); ++i) {
       const double scale = std::max(std::abs(q[i]), std::abs(this->q0_[i]));
-      largest =
-          std::max(largest, std::abs(correction_[i]) / std::max(this->tolerance_.of(scale), kFinestTolerance * scale));
+      largest = std::max(largest,
+                         std::abs(correction_[i]) / std::max(this->tolerance_.of(i, scale), kFinestTolerance * scale));
     }
     return largest;
   }

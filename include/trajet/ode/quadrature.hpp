@@ -226,7 +226,7 @@ class QuadratureStepper {
     const double scale = std::max(std::abs(q_[i]), std::abs(trial_[i]));
     const double rounding = kSumRounding * (scale + std::abs(h) * magnitude);
     segment_.error_bound()[i] = error + rounding;
-    return error / (options_.atol + options_.rtol * scale + rounding);
+    return error / (absolute_tolerance(options_, i) + options_.rtol * scale + rounding);
   }
 
   // The values of the polynomials near the end of a step lose this much by the alternating sums of their coefficients.

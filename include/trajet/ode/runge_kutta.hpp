@@ -129,24 +129,21 @@ class AdaptiveRungeKutta : public RungeKuttaBase<Method, Rate, Dim> {
  public:
   using typename Base::State;
 
-  AdaptiveRungeKutta(Rate rate, const StepOptions& options)
-      : Base(std::move(rate)),
-        rtol_(options.rtol),
-        atol_(std::max(options.atol, std::numeric_limits<double>::min())),
-        first_step_(options.step.value_or(0.0)),
-        max_step_(options.max_step) {
+  AdaptiveRungeKutta(Rate rate, const StepOptions& options) : Base(std::move(rate)), options_(options) {
     check_step_control(options);
   }
 
   void start(double t, const State& q) {
     this->begin(t, q);
+    read_tolerances();
     controller_.reset();
-    next_step_ = first_step_;
+    next_step_ = options_.step.value_or(0.0);
   }
 
   TRAJET_FLATTEN StepStatus advance(double t_limit) {
     assert(t_limit != this->time());
-    t_limit = step_limit(this->time(), t_limit, max_step_);
+    t_limit = step_limit(this->time(), t_limit, options_.max_step);
+    if (options_.component_atol != nullptr) read_tolerances();
     this->evaluate_end();
     if (next_step_ == 0.0) next_step_ = first_step(t_limit);
     this->step_.begin_next();
@@ -158,7 +155,7 @@ class AdaptiveRungeKutta : public RungeKuttaBase<Method, Rate, Dim> {
       const bool lands = h * kLandingStretch >= distance;
       this->step_.template compute<false, true>(lands ? t_limit : t0 + direction * h, this->rate_);
       this->statistics_.law_evaluations += Base::Step::kInnerEvaluations + 1;
-      const double log_error = this->step_.log2_error_norm(atol_, rtol_);
+      const double log_error = this->step_.log2_error_norm(atol_, options_.rtol);
       if (lands) h = distance;
       if (log_error <= 0.0) {
         const double proposed = h * controller_.accepted_log2(log_error);
@@ -184,11 +181,11 @@ class AdaptiveRungeKutta : public RungeKuttaBase<Method, Rate, Dim> {
   /// fast.
   [[gnu::noinline]] double first_step(double t_limit) {
     const double t = this->time();
-    const double d0 = this->step_.state_norm(atol_, rtol_);
-    const double d1 = this->step_.rate_norm(atol_, rtol_);
+    const double d0 = this->step_.state_norm(atol_, options_.rtol);
+    const double d1 = this->step_.rate_norm(atol_, options_.rtol);
     if (!std::isfinite(d1)) return smallest_step(t);
     const double h0 = std::min(d0 < 1e-5 || d1 < 1e-5 ? 1e-6 : 0.01 * d0 / d1, std::abs(t_limit - t));
-    const double change = this->step_.rate_change_norm(t_limit > t ? h0 : -h0, this->rate_, atol_, rtol_);
+    const double change = this->step_.rate_change_norm(t_limit > t ? h0 : -h0, this->rate_, atol_, options_.rtol);
     ++this->statistics_.law_evaluations;
     const double d2 = std::max(d1, change / h0);
     if (!std::isfinite(d2)) return h0;
@@ -197,10 +194,12 @@ class AdaptiveRungeKutta : public RungeKuttaBase<Method, Rate, Dim> {
     return std::min(100.0 * h0, h1);
   }
 
-  double rtol_;
-  double atol_;  // never 0, so that a component that stays at 0 meets it
-  double first_step_;
-  double max_step_;  // s
+  void read_tolerances() {
+    atol_.fill(this->state().size(), [this](Eigen::Index i) { return absolute_tolerance(options_, i); });
+  }
+
+  StepOptions options_;
+  typename Base::Step::Vector atol_;
   StepController controller_{kErrorPower};
   double next_step_ = 0.0;  // s; 0: not chosen yet
 };

@@ -34,6 +34,7 @@ class RungeKuttaStep {
                 "the last stage is the end rate");
 
  public:
+  using Vector = StepState<Dim>;
   using State = Eigen::Matrix<double, Dim, 1>;
   /// Evaluations of the law by compute(), without the rate at the end.
   static constexpr long kInnerEvaluations = static_cast<long>(kStages) - 2;
@@ -95,10 +96,10 @@ class RungeKuttaStep {
   }
 
   /// log2 of the largest component of the error estimate over its tolerance atol + rtol |q|, |q| the larger one of both
-  /// ends, within 0.003; above 1000 if it is not finite. `atol` > 0.
+  /// ends, within 0.003; above 1000 if it is not finite. Each `atol` > 0.
   ///
   /// The step's successor waits for this number: as a logarithm it needs neither square root nor division.
-  TRAJET_INLINE double log2_error_norm(double atol, double rtol) const {
+  TRAJET_INLINE double log2_error_norm(const Vector& atol, double rtol) const {
     const double first = difference_norm<ErrorWeights>(atol, rtol);
     if constexpr (kHasSecondCompanion<Method>) {
       const double second = difference_norm<SecondErrorWeights>(atol, rtol);
@@ -113,15 +114,15 @@ class RungeKuttaStep {
   static constexpr double kLog2NotFinite = 1024.0;
 
   /// The largest component at the end over the tolerance there: of the state, of the rate after evaluate_end(), and of
-  /// the change of the rate in a step `h` of Euler's method, which spoils the first stage. `atol` > 0.
-  double state_norm(double atol, double rtol) const {
+  /// the change of the rate in a step `h` of Euler's method, which spoils the first stage. Each `atol` > 0.
+  double state_norm(const Vector& atol, double rtol) const {
     return end_norm(atol, rtol, [&](Eigen::Index b, Block& x) { x = q1_[b]; });
   }
-  double rate_norm(double atol, double rtol) const {
+  double rate_norm(const Vector& atol, double rtol) const {
     return end_norm(atol, rtol, [&](Eigen::Index b, Block& x) { x = k_[kLast][b]; });
   }
   template <class Rate>
-  double rate_change_norm(double h, Rate& rate, double atol, double rtol) {
+  double rate_change_norm(double h, Rate& rate, const Vector& atol, double rtol) {
     for_each_block([&](Eigen::Index b) {
       const Block q = q1_[b] + h * k_[kLast][b];
       Vector::write(q, q_stage_.data(), b);
@@ -158,7 +159,6 @@ class RungeKuttaStep {
   }
 
  private:
-  using Vector = StepState<Dim>;
   using Block = typename Vector::Block;
 
   // The state is rounded twice in a step, and so are the values of the polynomials near it.
@@ -199,12 +199,12 @@ class RungeKuttaStep {
   }
 
   template <class F>
-  double end_norm(double atol, double rtol, F&& f) const {
+  double end_norm(const Vector& atol, double rtol, F&& f) const {
     return largest_component([&](Eigen::Index b, Block& x) {
       Block end = q1_[b];
       Vector::take_magnitude(end);
       f(b, x);
-      x /= atol + rtol * end;
+      x /= atol[b] + rtol * end;
     });
   }
 
@@ -249,13 +249,13 @@ class RungeKuttaStep {
 
   /// The norm of the difference to a companion over the tolerance.
   template <class Weights>
-  TRAJET_INLINE double difference_norm(double atol, double rtol) const {
+  TRAJET_INLINE double difference_norm(const Vector& atol, double rtol) const {
     return largest_component([&](Eigen::Index b, Block & x) __attribute__((always_inline)) {
       Block start = q0_[b], end = q1_[b], error{};
       Vector::take_magnitude(start);
       Vector::take_magnitude(end);
       add_weighted<Weights, kStages>(t1_ - t0_, b, error);
-      x = error / (atol + rtol * (start > end ? start : end));
+      x = error / (atol[b] + rtol * (start > end ? start : end));
     });
   }
 

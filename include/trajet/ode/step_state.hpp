@@ -62,6 +62,11 @@ class PackedState {
     [&]<int... I>(std::integer_sequence<int, I...>) __attribute__((always_inline)) { lanes_ = Block{q[I]...}; }
     (std::make_integer_sequence<int, Dim>());
   }
+  /// Component i becomes f(i); lanes without a component become as the last one.
+  template <class F>
+  void fill(Eigen::Index, F&& f) {
+    for (int i = 0; i < kLanes; ++i) lanes_[i] = f(Eigen::Index{std::min(i, Dim - 1)});
+  }
   TRAJET_INLINE static void write(const Block& block, double* components, Eigen::Index) {
     std::memcpy(components, &block, Dim * sizeof(double));
   }
@@ -92,6 +97,11 @@ class PlainState {
 
   State& components() { return components_; }
   void assign(const State& q) { components_ = q; }
+  template <class F>
+  void fill(Eigen::Index size, F&& f) {
+    components_.resize(size);
+    for (Eigen::Index i = 0; i < size; ++i) components_[i] = f(i);
+  }
   TRAJET_INLINE static void write(double component, double* components, Eigen::Index i) { components[i] = component; }
 
   TRAJET_INLINE static void take_magnitude(double& x) { x = std::abs(x); }

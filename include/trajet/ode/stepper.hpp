@@ -1,7 +1,9 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <concepts>
+#include <cstddef>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -33,6 +35,9 @@ struct StepStatistics {
 struct StepOptions {
   double rtol = 1e-12;  ///< tolerance relative to each component, error-controlled methods
   double atol = 1e-12;  ///< absolute tolerance in each component's unit, error-controlled methods
+  /// The absolute tolerance of each component, instead of `atol`, each > 0; the owner may change it between steps.
+  /// Null: `atol` for all.
+  std::shared_ptr<const std::vector<double>> component_atol{};
   /// s, > 0. Fixed-step methods: the step, required unless `nodes`; rk4-doubling: the output interval; quadrature: the
   /// longest step; others: the first step.
   std::optional<double> step{};
@@ -41,6 +46,14 @@ struct StepOptions {
   std::vector<double> nodes{};  ///< fixed-step methods: the times of the step ends, for unequal steps
   int order = 0;                ///< series methods: the order; 0 lets the method choose
 };
+
+/// The absolute tolerance of a component. Never 0, so that a component that stays at 0 meets it.
+inline double absolute_tolerance(const StepOptions& options, Eigen::Index component) {
+  const auto* each = options.component_atol.get();
+  const auto place = static_cast<std::size_t>(component);
+  return std::max(each != nullptr && place < each->size() ? (*each)[place] : options.atol,
+                  std::numeric_limits<double>::min());
+}
 
 /// Throws std::invalid_argument for tolerances, or a longest step, that an error-controlled method cannot keep.
 inline void check_step_control(const StepOptions& options) {

@@ -185,7 +185,8 @@ class TaylorStepper {
   double step_within_tolerance(double remaining, double longest_blind) {
     double finite = 0.0;  // becomes not-a-number with a rate, or a last term, that is not finite
     for (int i = 0; i < segment_.dimension(); ++i) {
-      inverse_tolerance_[i] = 1.0 / (options_.atol + options_.rtol * std::abs(segment_.coefficients()(i, 0)));
+      inverse_tolerance_[i] =
+          1.0 / (absolute_tolerance(options_, i) + options_.rtol * std::abs(segment_.coefficients()(i, 0)));
       finite += 0.0 * segment_.coefficients()(i, 1) + 0.0 * segment_.coefficients()(i, order_);
     }
     if (finite != 0.0) return std::numeric_limits<double>::quiet_NaN();
@@ -259,7 +260,9 @@ class TaylorStepper {
   /// One step of Dormand and Prince's method, or the series' own `step` where that is the longer one.
   StepStatus advance_by_runge_kutta(double t_limit, double step) {
     if (!runge_kutta_)
-      runge_kutta_.emplace(Rate{&expansion_}, StepOptions{.rtol = options_.rtol, .atol = options_.atol});
+      runge_kutta_.emplace(
+          Rate{&expansion_},
+          StepOptions{.rtol = options_.rtol, .atol = options_.atol, .component_atol = options_.component_atol});
     const StepStatistics before = runge_kutta_->statistics();
     runge_kutta_->start(t_, state());
     const StepStatus status = runge_kutta_->advance(t_limit);

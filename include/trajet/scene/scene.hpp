@@ -39,7 +39,7 @@ struct TimeOptions {
 struct MethodOptions {
   std::string name = "taylor";
   std::optional<Expression> rtol;      ///< default 1e-12
-  std::optional<Expression> atol;      ///< default 1e-12
+  std::optional<Expression> atol;      ///< default 1e-12 of each component's scale, of 1 at most
   std::optional<Expression> step;      ///< s
   std::optional<Expression> max_step;  ///< s; no step is longer
   std::vector<Expression> steps;       ///< s; unequal steps of a fixed-step method, one after the other

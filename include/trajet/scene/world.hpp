@@ -164,6 +164,8 @@ struct World {
   double sample = 0.0;    ///< s, > 0
   const MethodInfo* method = nullptr;
   StepOptions step_options;
+  /// The absolute tolerance is the method's own: `step_options.atol` is a part of how large each component is.
+  bool atol_follows_scale = false;
   long max_steps = 0;
   std::optional<double> max_seconds{};  ///< s, > 0, of elapsed time that a run may take
   Locator locate = Locator::polynomial;
