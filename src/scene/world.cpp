@@ -9,18 +9,16 @@
 #include <unordered_map>
 
 #include "body_maker.hpp"
-#include "drive_maker.hpp"
 #include "extended_numbers.hpp"
 #include "law_formulas.hpp"
 #include "law_symbols.hpp"
 #include "never_zero.hpp"
+#include "obstacle_maker.hpp"
 #include "partition.hpp"
-#include "restitution_maker.hpp"
 #include "scene_method.hpp"
 #include "scene_names.hpp"
 #include "scene_numbers.hpp"
 #include "scene_symbols.hpp"
-#include "solid_maker.hpp"
 #include "start_check.hpp"
 #include "trajet/law/evaluate.hpp"
 #include "trajet/law/program_builder.hpp"
@@ -51,18 +49,7 @@ class WorldBuilder {
     world_.warnings = scene_.warnings;
     set_time();
     set_method(scene_.method, numbers_, world_);
-    Symbols starting(&parameters_.symbols);
-    starting.set_constant("t", world_.epoch);
-    const SceneNumbers at_start(starting);
-    for (const ObstacleDefinition& obstacle : scene_.obstacles) {
-      std::vector<World::Obstacle> made = make_obstacles(obstacle, numbers_, at_start);
-      set_restitution(obstacle, parameters_.symbols, numbers_, made, world_.warnings);
-      const std::optional<World::Drive> drive = make_drive(obstacle, parameters_.symbols, at_start, world_.epoch);
-      for (World::Obstacle& each : made) {
-        each.drive = drive;
-        world_.obstacles.push_back(std::move(each));
-      }
-    }
+    make_obstacles(scene_, parameters_, world_);
     find_dependencies();
     place_in_groups();
     for (std::size_t g = 0; g < world_.groups.size(); ++g) compile_group(static_cast<int>(g));

@@ -1,0 +1,12 @@
+#pragma once
+
+#include "scene_symbols.hpp"
+#include "trajet/scene/world.hpp"
+
+namespace trajet {
+
+/// Gives a world the obstacles of its scene: where they stand, how they move, what happens at them. Its start is known.
+/// Throws InputError that points at the place.
+void make_obstacles(const Scene& scene, const ParameterSet& parameters, World& world);
+
+}  // namespace trajet
