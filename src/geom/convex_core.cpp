@@ -117,14 +117,9 @@ struct MakeCore {
   ConvexCore operator()(const Compound&) const { throw std::domain_error("a compound is not convex"); }
   ConvexCore operator()(const Surroundings&) const { throw std::domain_error("surroundings are not convex"); }
   ConvexCore operator()(const Cone& cone) const {
-    return revolved({{0.0, 0.75 * cone.height}, {cone.radius, -0.25 * cone.height}}, 0.0);
+    return cone_core(cone.radius, -0.25 * cone.height, 0.75 * cone.height);
   }
-  ConvexCore operator()(const Ellipsoid& ellipsoid) const {
-    ConvexCore core;
-    core.vertices.push_back(Vector3::Zero());
-    core.spreads.emplace_back(ellipsoid.radii.asDiagonal());
-    return finished(core);
-  }
+  ConvexCore operator()(const Ellipsoid& ellipsoid) const { return ellipsoid_core(ellipsoid.radii); }
   ConvexCore operator()(const RoundedSolid& rounded) const {
     if (!rounded.core->profile.empty()) return revolved(rounded.core->profile, rounded.core->rounding);
     return grown(rounded.core->corners, rounded.core->rounding);
@@ -171,16 +166,11 @@ struct MakeCore {
       core = hull_core(convex_hull(corners));
     } catch (const std::domain_error&) {
       // too flat for a hull: its corners alone hold all that its support needs
-      core = ConvexCore{.vertices = corners};
+      core = finished({.vertices = corners});
     }
     core.rounding = rounding;
-    core.faces_of.clear();
-    core.edges_of.clear();
-    std::vector<CoreFace> faces = std::move(core.faces);
-    core.edges.clear();
-    core.faces = std::move(faces);
-    core.reach = 0.0;
-    return finished(std::move(core));
+    core.reach += rounding;
+    return core;
   }
   static ConvexCore stretch(double half_height, double radius) {
     ConvexCore core;

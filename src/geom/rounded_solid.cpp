@@ -39,20 +39,20 @@ RoundedSolid make_rounded_hull(std::span<const Vector3> corners, double rounding
 }
 
 RoundedSolid make_rounded_cylinder(double radius, double height, double rounding) {
-  return turned(cylinder_core(radius, height, rounding), rounding);
+  return turned(cylinder_core_profile(radius, height, rounding), rounding);
 }
 
 RoundedSolid make_rounded_cone(double radius, double height, double rounding) {
-  return turned(cone_core(radius, height, rounding), rounding);
+  return turned(cone_core_profile(radius, height, rounding), rounding);
 }
 
-std::vector<Eigen::Vector2d> cylinder_core(double radius, double height, double rounding) {
+std::vector<Eigen::Vector2d> cylinder_core_profile(double radius, double height, double rounding) {
   const double h = 0.5 * height - rounding, r = radius - rounding;
   require_left(h > 0.0 && r > 0.0);
   return {{0.0, -h}, {r, -h}, {r, h}, {0.0, h}};
 }
 
-std::vector<Eigen::Vector2d> cone_core(double radius, double height, double rounding) {
+std::vector<Eigen::Vector2d> cone_core_profile(double radius, double height, double rounding) {
   // The side m . p = c moves inward by the rounding, with m = (height, radius) / side: so the tip sinks by
   // rounding side / radius.
   const double side = std::hypot(radius, height);

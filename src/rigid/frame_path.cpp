@@ -129,8 +129,8 @@ FramePose FramePath::pose(double t) const {
 }
 
 Range FramePath::range(int i, double from, double to) const {
-  if (is_at_rest()) return {rows_(i, 0), rows_(i, 0)};
-  const Eigen::VectorXd coefficients = rows_.row(i);
+  const Eigen::VectorXd coefficients = i < 3 ? position_.row(i) : orientation_.row(i - 3);
+  if (coefficients.size() == 1) return {coefficients[0], coefficients[0]};
   const std::span<const double> span(coefficients.data(), static_cast<std::size_t>(coefficients.size()));
   return BernsteinForm(span, from - t0_, to - t0_).value_range();
 }

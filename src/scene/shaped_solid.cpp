@@ -42,7 +42,7 @@ class SolidMaker {
     const double height = numbers_.positive(shape.height, "height");
     if (!rounding_) return at_center(Cone{radius, height});
     return {make_rounded_cone(radius, height, *rounding_),
-            grown_profile_properties(cone_core(radius, height, *rounding_), *rounding_).center};
+            grown_profile_properties(cone_core_profile(radius, height, *rounding_), *rounding_).center};
   }
   ShapedSolid operator()(const EllipsoidShape& shape) const {
     const Vector3 radii = numbers_.positive_vector(shape.radii, "radii");

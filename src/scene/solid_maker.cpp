@@ -82,7 +82,7 @@ class FixedSolid {
     if (is_hollow_) return hollow(make_cylinder_cavity(center_, R_WB_, radius, height));
     SolidOfRevolution cylinder = make_cylinder(center_, R_WB_, radius, height);
     if (!rounding_) return placed(Cylinder{radius, 0.5 * height}, center_, R_WB_, std::move(cylinder));
-    cylinder.profile = cylinder_core(radius, height, *rounding_);
+    cylinder.profile = cylinder_core_profile(radius, height, *rounding_);
     cylinder.growth = *rounding_;
     return placed(make_rounded_cylinder(radius, height, *rounding_), center_, R_WB_, std::move(cylinder));
   }
@@ -98,7 +98,7 @@ class FixedSolid {
     const double height = numbers_.positive(shape.height, "height");
     SolidOfRevolution cone = make_cone(center_, R_WB_, radius, height);
     if (!rounding_) return placed(Cone{radius, height}, center_, R_WB_, std::move(cone));
-    cone.profile = cone_core(radius, height, *rounding_);
+    cone.profile = cone_core_profile(radius, height, *rounding_);
     cone.growth = *rounding_;
     const Vector3 center = grown_profile_properties(cone.profile, *rounding_).center;
     return placed(make_rounded_cone(radius, height, *rounding_), center_ + R_WB_ * center, R_WB_, std::move(cone));

@@ -23,8 +23,8 @@ RoundedSolid make_rounded_cylinder(double radius, double height, double rounding
 RoundedSolid make_rounded_cone(double radius, double height, double rounding);
 
 /// The profile that grows by `rounding` into that of a cylinder or cone (z of the cone as in Cone).
-std::vector<Eigen::Vector2d> cylinder_core(double radius, double height, double rounding);
-std::vector<Eigen::Vector2d> cone_core(double radius, double height, double rounding);
+std::vector<Eigen::Vector2d> cylinder_core_profile(double radius, double height, double rounding);
+std::vector<Eigen::Vector2d> cone_core_profile(double radius, double height, double rounding);
 
 /// Volume, centre and inertia of a grown polytope and a grown profile, to rounding: quadratures that are exact for what
 /// is flat, and of smooth functions over arcs and spherical triangles.
