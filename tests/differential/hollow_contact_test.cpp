@@ -116,7 +116,9 @@ Kind tetrahedron(Random& random, const Vector3& near) {
               const Real above = n.dot(p - a);
               outside = std::max(outside, above);
               const RealVector foot = p - above * n;
-              const auto side = [&](const RealVector& u, const RealVector& v) { return (v - u).cross(foot - u).dot(n); };
+              const auto side = [&](const RealVector& u, const RealVector& v) {
+                return (v - u).cross(foot - u).dot(n);
+              };
               const Real ab = side(a, b), bc = side(b, c), ca = side(c, a);
               if ((ab >= 0 && bc >= 0 && ca >= 0) || (ab <= 0 && bc <= 0 && ca <= 0))
                 nearest = std::min(nearest, std::abs(above));
