@@ -36,7 +36,8 @@ TEST(Shapes, ABallFallsOnTheTipOfACone) {
   EXPECT_NEAR(result.impacts[0].time, t, 1e-14);
   EXPECT_LE((result.impacts[0].point - Vector3(0, 0, 1.5)).norm(), 1e-14);
   EXPECT_LE((result.impacts[0].normal - Vector3(0, 0, 1)).norm(), 1e-12);
-  EXPECT_NEAR(final_of(result, "ball").position.z(), 1.6 + kG * t * (1.0 - t) - 0.5 * kG * (1.0 - t) * (1.0 - t), 1e-12);
+  EXPECT_NEAR(final_of(result, "ball").position.z(), 1.6 + kG * t * (1.0 - t) - 0.5 * kG * (1.0 - t) * (1.0 - t),
+              1e-12);
 }
 
 TEST(Shapes, ABallMeetsTheRimOfACylinder) {
@@ -75,8 +76,8 @@ TEST(Shapes, ABallInAHollowSphereComesBackOnItsDiameter) {
   for (std::size_t i = 0; i < result.impacts.size(); ++i)
     EXPECT_NEAR(result.impacts[i].time, 0.9 + 1.8 * static_cast<double>(i), 1e-12);
 
-  const RunResult falls = run_text(scene("5.0", kBall + kFalls,
-                                         obstacle("shape = \"sphere\"\ncenter = [0,0,0]\nradius = 1\ninside = true")));
+  const RunResult falls = run_text(
+      scene("5.0", kBall + kFalls, obstacle("shape = \"sphere\"\ncenter = [0,0,0]\nradius = 1\ninside = true")));
   const double down = std::sqrt(2.0 * 0.9 / kG);
   ASSERT_EQ(falls.impacts.size(), 6u);
   for (std::size_t i = 0; i < falls.impacts.size(); ++i)
@@ -85,9 +86,9 @@ TEST(Shapes, ABallInAHollowSphereComesBackOnItsDiameter) {
 
 // In an ellipse the product of the angular momenta about both foci is kept by every reflection.
 TEST(Shapes, AnEllipticBilliardKeepsTheProductOfAngularMomenta) {
-  const RunResult result = run_text(
-      scene("400.0", "position = [0.3, 0.2, 0]\nvelocity = [0.7, 0.9, 0]",
-            obstacle("shape = \"ellipsoid\"\ncenter = [0,0,0]\nradii = [2, 1, 1.5]\ninside = true")));
+  const RunResult result =
+      run_text(scene("400.0", "position = [0.3, 0.2, 0]\nvelocity = [0.7, 0.9, 0]",
+                     obstacle("shape = \"ellipsoid\"\ncenter = [0,0,0]\nradii = [2, 1, 1.5]\ninside = true")));
   EXPECT_EQ(result.status, RunStatus::finished);
   EXPECT_GT(result.impacts.size(), 150u);
   const double focus = std::sqrt(3.0);
@@ -96,7 +97,8 @@ TEST(Shapes, AnEllipticBilliardKeepsTheProductOfAngularMomenta) {
   };
   const double start = product({0.3, 0.2, 0}, {0.7, 0.9, 0});
   for (const Impact& impact : result.impacts) {
-    EXPECT_NEAR(impact.position.x() * impact.position.x() / 4.0 + impact.position.y() * impact.position.y(), 1.0, 1e-12);
+    EXPECT_NEAR(impact.position.x() * impact.position.x() / 4.0 + impact.position.y() * impact.position.y(), 1.0,
+                1e-12);
     EXPECT_NEAR(product(impact.position, impact.velocity_after), start, 1e-10);
   }
 }
@@ -108,7 +110,8 @@ TEST(Shapes, AHollowBoxIsARoomOfSixPlanes) {
     planes += "[[obstacle]]\nname = \"w" + std::to_string(planes.size()) + "\"\nshape = \"plane\"\npoint = " + wall +
               "\nnormal = \"-1*" + wall + "\"\non_hit = \"bounce\"\n";
   const std::string flight = kBall + kFalls + "velocity = [1.1, 2.3, 0.7]\nposition = [0.1, 0.2, 0.3]";
-  const RunResult in_room = run_text(scene("20.0", flight, room)), among_planes = run_text(scene("20.0", flight, planes));
+  const RunResult in_room = run_text(scene("20.0", flight, room)),
+                  among_planes = run_text(scene("20.0", flight, planes));
   ASSERT_EQ(in_room.impacts.size(), among_planes.impacts.size());
   EXPECT_GT(in_room.impacts.size(), 40u);
   for (std::size_t i = 0; i < in_room.impacts.size(); ++i) {
@@ -129,24 +132,24 @@ TEST(Shapes, ARoomsCornerSendsABallBack) {
 TEST(Shapes, RoomsKeepWhatRestsOnTheirFloors) {
   for (const char* keys : {"shape = \"box\"\ncenter = [0,0,0]\nsize = [2, 2, 2]\ninside = true",
                            "shape = \"cylinder\"\ncenter = [0,0,0]\nradius = 1\nheight = 2\ninside = true"}) {
-    const RunResult result = run_text(scene("20.0", kBall + kFalls + "velocity = [0.1, 0, 0]",
-                                            obstacle(keys) + "restitution = 0.5\n"));
+    const RunResult result =
+        run_text(scene("20.0", kBall + kFalls + "velocity = [0.1, 0, 0]", obstacle(keys) + "restitution = 0.5\n"));
     EXPECT_EQ(result.status, RunStatus::finished) << result.failure;
     EXPECT_EQ(impacts_of(result, ImpactKind::rest).size(), 1u);
     EXPECT_NEAR(final_of(result, "ball").position.z(), -0.9, 1e-12);
     EXPECT_LE(std::abs(final_of(result, "ball").position.x()), 0.9 + 1e-12);
   }
-  const RunResult bowl =
-      run_text(scene("60.0", kBall + kFalls,
-                     obstacle("shape = \"sphere\"\ncenter = [0,0,0]\nradius = 1\ninside = true") + "restitution = 0.5\n"));
+  const RunResult bowl = run_text(
+      scene("60.0", kBall + kFalls,
+            obstacle("shape = \"sphere\"\ncenter = [0,0,0]\nradius = 1\ninside = true") + "restitution = 0.5\n"));
   EXPECT_EQ(bowl.status, RunStatus::failed);
   EXPECT_NE(bowl.failure.find("comes to rest on the curved or sharp part of obstacle 'o'"), std::string::npos);
 }
 
 TEST(Shapes, ABodyRestsOnTheFlatEndOfACylinder) {
-  const RunResult result = run_text(scene("10.0", kBall + kFalls + "position = [0, 0, 2]\nvelocity = [0.1, 0, 0]",
-                                          obstacle("shape = \"cylinder\"\ncenter = [0,0,0]\nradius = 0.5\nheight = 2") +
-                                              "restitution = 0\n"));
+  const RunResult result = run_text(
+      scene("10.0", kBall + kFalls + "position = [0, 0, 2]\nvelocity = [0.1, 0, 0]",
+            obstacle("shape = \"cylinder\"\ncenter = [0,0,0]\nradius = 0.5\nheight = 2") + "restitution = 0\n"));
   const auto leaves = impacts_of(result, ImpactKind::leave);
   // it slides off the end, too slowly to fly over the rim: that is not followed
   EXPECT_EQ(result.status, RunStatus::failed) << leaves.size();
@@ -175,8 +178,7 @@ TEST(Shapes, AHullIsTheBoxThatItsCornersAre) {
         run_text(scene("1.5", flight, obstacle("shape = \"box\"\ncenter = [0,0,0.5]\nsize = [2,2,2]\n")));
     ASSERT_EQ(hull.impacts.size(), box.impacts.size());
     ASSERT_GE(hull.impacts.size(), 1u);
-    for (std::size_t i = 0; i < hull.impacts.size(); ++i)
-      EXPECT_NEAR(hull.impacts[i].time, box.impacts[i].time, 1e-14);
+    for (std::size_t i = 0; i < hull.impacts.size(); ++i) EXPECT_NEAR(hull.impacts[i].time, box.impacts[i].time, 1e-14);
   }
 }
 
@@ -205,13 +207,13 @@ TEST(Shapes, ACompoundIsMetAtItsParts) {
 }
 
 TEST(Shapes, ACompoundBodyHasTheMassOfItsParts) {
-  const World world = make_world(parse_scene(
-      scene("1.0",
-            "shape = \"compound\"\nangular_velocity = [0,0,1]\nforce = [0,0,1]\n"
-            "parts = [{shape = \"sphere\", radius = 0.1, mass = 2, position = [0.5,0,0]}, "
-            "{shape = \"sphere\", radius = 0.1, mass = 1, position = [-1,0,0]}]\n",
-            ""),
-      "s"));
+  const World world =
+      make_world(parse_scene(scene("1.0",
+                                   "shape = \"compound\"\nangular_velocity = [0,0,1]\nforce = [0,0,1]\n"
+                                   "parts = [{shape = \"sphere\", radius = 0.1, mass = 2, position = [0.5,0,0]}, "
+                                   "{shape = \"sphere\", radius = 0.1, mass = 1, position = [-1,0,0]}]\n",
+                                   ""),
+                             "s"));
   ASSERT_TRUE(world.bodies[0].rotation && world.bodies[0].rotation->inertia);
   // about the common centre at the origin: 2/5 m r^2 for each, and m x^2
   const double own = 0.4 * 3.0 * 0.01, apart = 2.0 * 0.25 + 1.0;

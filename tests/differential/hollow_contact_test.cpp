@@ -50,7 +50,7 @@ Kind rounded_cylinder(Random& random, const Vector3& near) {
   const double radius = random.uniform(0.2, 1.0), height = random.uniform(0.4, 2.0);
   const double rounding = random.uniform(0.01, 0.19);
   SolidOfRevolution cylinder = make_cylinder(near, R, radius, height);
-  cylinder.profile = cylinder_core(radius, height, rounding);
+  cylinder.profile = cylinder_core_profile(radius, height, rounding);
   cylinder.growth = rounding;
   return {cylinder, in_frame(near, R, [=](const RealVector& q) {
             const Real r = rounding;
@@ -63,7 +63,7 @@ Kind rounded_cone(Random& random, const Vector3& near) {
   const double radius = random.uniform(0.3, 1.0), height = random.uniform(0.5, 2.0);
   const double rounding = random.uniform(0.01, 0.1);
   SolidOfRevolution cone = make_cone(near, R, radius, height);
-  cone.profile = cone_core(radius, height, rounding);
+  cone.profile = cone_core_profile(radius, height, rounding);
   cone.growth = rounding;
   return {cone, in_frame(near, R, [=](const RealVector& q) {
             const Real incircle = Real(radius) * height / (radius + std::hypot(Real(radius), Real(height)));
@@ -116,7 +116,9 @@ Kind tetrahedron(Random& random, const Vector3& near) {
               const Real above = n.dot(p - a);
               outside = std::max(outside, above);
               const RealVector foot = p - above * n;
-              const auto side = [&](const RealVector& u, const RealVector& v) { return (v - u).cross(foot - u).dot(n); };
+              const auto side = [&](const RealVector& u, const RealVector& v) {
+                return (v - u).cross(foot - u).dot(n);
+              };
               const Real ab = side(a, b), bc = side(b, c), ca = side(c, a);
               if ((ab >= 0 && bc >= 0 && ca >= 0) || (ab <= 0 && bc <= 0 && ca <= 0))
                 nearest = std::min(nearest, std::abs(above));

@@ -16,8 +16,8 @@ struct ConvexFaces {
   };
   /// Between two faces.
   struct Edge {
-    int from, to;      ///< corners
-    Vector3 along;     ///< unit
+    int from, to;   ///< corners
+    Vector3 along;  ///< unit
     double length;
     int sides[2];
     Vector3 past[2];  ///< unit, in the plane of each side, out of it across the edge

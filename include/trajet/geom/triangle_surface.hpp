@@ -30,8 +30,8 @@ struct SurfaceTriangles {
 /// the surface is closed. Throws std::domain_error if there is no triangle or a vertex is not finite.
 MeshSurface make_mesh_surface(const TriangleMesh& mesh);
 
-/// The convex hull of points, with edges and corners rounded inside it: for `rounding` > 0 (m) the triangles of a smaller
-/// hull, grown. Throws std::domain_error as `convex_hull` does, or if nothing is left of the smaller one.
+/// The convex hull of points, with edges and corners rounded inside it: for `rounding` > 0 (m) the triangles of a
+/// smaller hull, grown. Throws std::domain_error as `convex_hull` does, or if nothing is left of the smaller one.
 MeshSurface make_hull_surface(std::span<const Vector3> points, double rounding = 0.0);
 
 /// How far inside the matter of a closed surface p is, negative, or else how far from the surface, m.

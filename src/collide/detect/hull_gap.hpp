@@ -11,8 +11,8 @@
 namespace trajet::detail {
 
 /// The gap of a ball and a convex polytope, feature by feature: over a face the height above it, past an edge the
-/// distance to its line, beyond a corner that to the corner; inside, the greatest of the heights. Where a piece of a path
-/// may be near several features, the hull of what each says.
+/// distance to its line, beyond a corner that to the corner; inside, the greatest of the heights. Where a piece of a
+/// path may be near several features, the hull of what each says.
 ///
 /// A point meets the sharp polytope where all heights have come to zero, as it does a solid of revolution.
 class HullGap {
@@ -44,6 +44,7 @@ class HullGap {
       JetHull hull;
       if (may_be_inside) hull.add(greatest(heights));
       add_features(heights, enclose, hull);
+      if (hull.is_empty()) hull.add(greatest(heights));  // between two features, by rounding
       result = hull.hull();
     }
     result[0] -= radius_;
@@ -77,8 +78,7 @@ class HullGap {
     for (std::size_t e = 0; e < places.size(); ++e) {
       const EdgePlace& place = places[e];
       const bool may_be_past = place.past[0][0].upper() >= 0.0 && place.past[1][0].upper() >= 0.0;
-      const bool may_be_between =
-          place.along[0].upper() >= 0.0 && place.along[0].lower() <= faces_.edges[e].length;
+      const bool may_be_between = place.along[0].upper() >= 0.0 && place.along[0].lower() <= faces_.edges[e].length;
       if (may_be_past && may_be_between)
         hull.add(distance_of(
             std::array{heights[static_cast<std::size_t>(faces_.edges[e].sides[0])], clipped(place.past[0])}));

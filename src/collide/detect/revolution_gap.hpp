@@ -58,6 +58,7 @@ class RevolutionGap {
       JetHull hull;
       if (may_be_inside) hull.add(greatest(above));
       for (std::size_t i = 0; i < edges_.size(); ++i) add_features(i, above[i], rho, p, hull);
+      if (hull.is_empty()) hull.add(greatest(above));  // between two features, by rounding
       result = hull.hull();
     }
     result[0] -= radius_;
