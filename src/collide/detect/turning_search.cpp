@@ -307,8 +307,8 @@ void TurningSearch::report(const RelativeMotion& window, double tolerance, const
       look();
     }
   }
-  bool is_graze = zero.kind == RootKind::touch;
-  if (!is_known && !is_graze && !zero.at_end) {
+  bool is_graze = is_known && zero.kind == RootKind::touch;
+  if (!is_known && !zero.at_end) {
     // by then what is left of the gap has closed, if it closes
     const double closing = 4.0 * (std::max(0.0, apart) + tolerance) / std::abs(rate);
     is_graze = parts_behind(window, time, tolerance, patch.point, closing);
