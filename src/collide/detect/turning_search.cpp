@@ -260,10 +260,13 @@ ClosestFeatures TurningSearch::just_apart(const RelativeMotion& window, double t
   return closest;
 }
 
-bool TurningSearch::parts_behind(const RelativeMotion& window, double time, double tolerance, const Vector3& place) {
+bool TurningSearch::parts_behind(const RelativeMotion& window, double time, double tolerance, const Vector3& place,
+                                 double first) {
   constexpr double kFirst = 1e-12, kLast = 0.02;  // of the window
-  for (double step = kFirst; step < kLast; step *= 2.0) {
-    double t = time + 2.0 * window.half() * step;
+  const double length = 2.0 * std::abs(window.half());
+  for (double step = std::min(std::max(first, kFirst * length), 0.5 * kLast * length); step < kLast * length;
+       step *= 2.0) {
+    double t = time + (from_ <= to_ ? step : -step);
     if (!is_before(t, to_)) t = to_;
     const AxisCandidate c = choice_.choose(pose_at(t), tolerance, &place);
     if (c.is_clear()) return true;
@@ -304,8 +307,12 @@ void TurningSearch::report(const RelativeMotion& window, double tolerance, const
       look();
     }
   }
-  bool is_graze = zero.kind == RootKind::touch;
-  if (!is_known && !is_graze && !zero.at_end) is_graze = parts_behind(window, time, tolerance, patch.point);
+  bool is_graze = is_known && zero.kind == RootKind::touch;
+  if (!is_known && !zero.at_end) {
+    // by then what is left of the gap has closed, if it closes
+    const double closing = 4.0 * (std::max(0.0, apart) + tolerance) / std::abs(rate);
+    is_graze = parts_behind(window, time, tolerance, patch.point, closing);
+  }
   finish(is_graze ? ContactStatus::graze : ContactStatus::hit, time);
   TurningContact& c = contact_;
   c.normal = a.R_WB * normal;

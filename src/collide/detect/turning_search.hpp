@@ -42,8 +42,8 @@ class TurningSearch {
               bool is_known);
   ClosestFeatures just_apart(const RelativeMotion& window, double time) const;
   /// Whether solids that touch within the tolerance at a time, at a place in A, are apart again behind it, before they
-  /// overlap.
-  bool parts_behind(const RelativeMotion& window, double time, double tolerance, const Vector3& place);
+  /// overlap. Looks from `first` (s) behind it.
+  bool parts_behind(const RelativeMotion& window, double time, double tolerance, const Vector3& place, double first);
 
   const ConvexCore& A_;
   const ConvexCore& B_;
