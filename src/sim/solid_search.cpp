@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <numeric>
 #include <utility>
 
@@ -17,6 +18,11 @@ constexpr std::size_t kFew = 8;
 ContactResult result_of(const TurningContact& contact, const FramePath& body) {
   ContactResult result;
   result.status = contact.status;
+  // a touch that closes at such a speed is none: within the resolution of round solids it would be over at once
+  constexpr double kTouch = 1e-9;  // m
+  const bool closes =
+      contact.gap_rate < 0.0 && contact.gap_rate * contact.gap_rate > 4.0 * kTouch * std::abs(contact.gap_curvature);
+  if (result.status == ContactStatus::graze && closes) result.status = ContactStatus::hit;
   result.time = contact.time;
   result.time_error_bound = contact.time_error_bound;
   result.time_resolution = contact.time_resolution;
