@@ -242,20 +242,5 @@ TEST(ReportedScenes, AToleranceCoarserThanTheMotionIsSaidAndInventsNoImpacts) {
   }
 }
 
-TEST(ReportedScenes, WhatIsThinnerThanRoundingIsHit) {
-  for (const double thickness : {1e-9, 1e-10, 1e-11, 1e-12, 1e-15, 1e-20}) {
-    const RunResult result = run_text(
-        "[time]\nend = 2\n[[body]]\nname = \"p\"\nposition = [-1e5, 0, 0]\nvelocity = [1e5, 0, 0]\n"
-        "[[obstacle]]\nname = \"a\"\nshape = \"box\"\ncenter = [0, 0, 0]\nsize = [" +
-        number(thickness) + ", 1, 1]\non_hit = \"bounce\"\n");
-    ASSERT_EQ(result.status, RunStatus::finished) << thickness << result.failure;
-    ASSERT_EQ(kinds_of(result), std::vector{ImpactKind::hit}) << thickness;
-    EXPECT_NEAR(result.impacts[0].time, 1.0, result.impacts[0].time_error_bound);
-    EXPECT_LT(result.impacts[0].time_error_bound, 1e-12);
-    EXPECT_EQ(result.impacts[0].normal, -Vector3::UnitX());
-    EXPECT_EQ(test::final_of(result, "p").velocity, -1e5 * Vector3::UnitX());
-  }
-}
-
 }  // namespace
 }  // namespace trajet

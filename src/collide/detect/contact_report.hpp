@@ -56,32 +56,10 @@ inline ContactResult stays_separated(int side) {
   return result;
 }
 
-/// A touch of a solid that the path leaves on the other side is no touch: the solid is thinner than rounding. Then the
-/// body hits it where it came to it.
-template <class F, class Place>
-GapContact through_thin(const F& gap, GapContact touch, const PointPath& path, Place&& place) {
-  const double forward = gap.end() < gap.begin() ? -1.0 : 1.0;
-  constexpr double kWider = 4.0;  // than the times at which it may be in contact
-  const double width = kWider * touch.root_error;
-  const auto within = [&](double tau) {
-    return std::clamp(tau, std::min(gap.begin(), gap.end()), std::max(gap.begin(), gap.end()));
-  };
-  const double before = within(touch.tau - forward * width);
-  const double after = within(touch.tau + forward * width);
-  if (!(place(path.value(before)).normal.dot(place(path.value(after)).normal) < 0.0)) return touch;
-  touch.status = ContactStatus::hit;
-  touch.tau = before;
-  touch.root_error += width;
-  touch.side_after = -touch.side_before;
-  touch.tolerance = std::abs(gap.at(before).jet.value);
-  return touch;
-}
-
 /// The result for what the search of `gap` found. `place(position)` gives the SurfacePoint for the ball's centre there.
 template <class F, class Place>
-ContactResult report(const F& gap, GapContact contact, const MovingBall& ball, bool is_solid, Place&& place) {
+ContactResult report(const F& gap, const GapContact& contact, const MovingBall& ball, bool is_solid, Place&& place) {
   const PointPath& path = ball.path;
-  if (is_solid && contact.status == ContactStatus::graze) contact = through_thin(gap, contact, path, place);
   ContactResult result;
   result.status = contact.status;
   result.memory.side = contact.side_after;
@@ -115,8 +93,7 @@ ContactResult report(const F& gap, GapContact contact, const MovingBall& ball, b
   result.time_error_bound = result.time_resolution + result.time_error(ball.start_error + path.error_bound().norm());
 
   result.memory.contact_time = result.time;
-  result.memory.tolerance =
-      std::max({sample.tolerance, contact.tolerance, 2.0 * time_rounding * std::abs(sample.jet.rate)});
+  result.memory.tolerance = std::max(sample.tolerance, 2.0 * time_rounding * std::abs(sample.jet.rate));
   return result;
 }
 

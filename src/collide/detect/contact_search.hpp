@@ -19,7 +19,6 @@ struct GapContact {
   int side_after = 0;             ///< separated: the side at the end, 0 unknown
   bool stays_at_zero = false;     ///< separated: the gap is zero all the time
   bool stays_in_contact = false;  ///< separated: no new contact, the handled one lasts
-  double tolerance = 0.0;         ///< the gap at the contact, where it is not zero to rounding
 };
 
 /// The first contact by a gap function, positive outside, negative inside.
