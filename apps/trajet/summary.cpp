@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <vector>
 
 #include "terminal.hpp"
@@ -17,22 +16,6 @@ namespace trajet {
 namespace {
 
 std::string format(const Vector3& v) { return fmt::format("({:.6g}, {:.6g}, {:.6g})", v.x(), v.y(), v.z()); }
-
-/// A component of a vector of that length, which may be off by `bound`, rounded to the digits that hold; zero where it
-/// is too small to tell.
-double held(double component, double length, double bound) {
-  constexpr double kNothing = 1e-6;  // of the length, as many digits as are printed
-  if (!(bound > 0.0 && bound < length)) return component;
-  if (std::abs(component) <= bound) return bound < kNothing * length ? 0.0 : component;
-  const double unit = std::pow(10.0, std::floor(std::log10(bound)));
-  return std::round(component / unit) * unit;
-}
-
-std::string format(const Vector3& v, std::optional<double> bound) {
-  if (!bound) return format(v);
-  const double length = v.norm();
-  return format(Vector3(v.unaryExpr([&](double x) { return held(x, length, *bound); })));
-}
 
 std::string format(const Quaternion& q) {
   return fmt::format("({:.6g}, {:.6g}, {:.6g}, {:.6g})", q.w(), q.x(), q.y(), q.z());
@@ -83,8 +66,7 @@ std::string final_state(const Sample& final, int width) {
   if (!final.bodies.empty()) {
     TextTable table{{"at the end", "position [m]", "velocity [m/s]"}};
     for (const BodyState& body : final.bodies)
-      table.push_back({body.body, format(body.position, body.position_error_bound),
-                       format(body.velocity, body.velocity_error_bound)});
+      table.push_back({body.body, format(body.position), format(body.velocity)});
     text += format_table(table, {.width = width});
   }
   if (ranges::any_of(final.bodies, &BodyState::turns)) {

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <string>
+#include <utility>
 
 #include "body_maker.hpp"
 #include "trajet/law/program_number.hpp"
@@ -79,10 +80,10 @@ class DriveProgram {
 
 }  // namespace
 
-std::optional<World::Drive> make_drive(const ObstacleDefinition& obstacle, const Symbols& constants,
-                                       const SceneNumbers& at_start, double epoch) {
+std::shared_ptr<const World::Drive> make_drive(const ObstacleDefinition& obstacle, const Symbols& constants,
+                                               const SceneNumbers& at_start, double epoch) {
   const bool moves = changes(obstacle.center), turns = obstacle.orientation && changes(*obstacle.orientation);
-  if (!moves && !turns && !obstacle.velocity && !obstacle.angular_velocity) return std::nullopt;
+  if (!moves && !turns && !obstacle.velocity && !obstacle.angular_velocity) return nullptr;
   const std::string of = " of obstacle '" + obstacle.name + "'";
   if (moves && obstacle.velocity)
     throw InputError(obstacle.velocity->where(), "velocity" + of + " is there already: its place is a formula of t");
@@ -111,7 +112,7 @@ std::optional<World::Drive> make_drive(const ObstacleDefinition& obstacle, const
   for (int i = 0; i < 3; ++i) program.add(place[i]);
   for (const ProgramNumber& part : {turned.w(), turned.x(), turned.y(), turned.z()}) program.add(part);
   drive.pose = program.build();
-  return drive;
+  return std::make_shared<const World::Drive>(std::move(drive));
 }
 
 }  // namespace trajet

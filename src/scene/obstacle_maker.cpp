@@ -14,10 +14,11 @@ void make_obstacles(const Scene& scene, const ParameterSet& parameters, World& w
   Symbols starting(&parameters.symbols);
   starting.set_constant("t", world.epoch);
   const SceneNumbers at_start(starting);
+  world.obstacles.reserve(scene.obstacles.size());
   for (const ObstacleDefinition& obstacle : scene.obstacles) {
     std::vector<World::Obstacle> made = make_obstacles(obstacle, numbers, at_start);
     set_restitution(obstacle, parameters.symbols, numbers, made, world.warnings);
-    const std::optional<World::Drive> drive = make_drive(obstacle, parameters.symbols, at_start, world.epoch);
+    const auto drive = make_drive(obstacle, parameters.symbols, at_start, world.epoch);
     for (World::Obstacle& each : made) {
       each.drive = drive;
       world.obstacles.push_back(std::move(each));

@@ -227,7 +227,7 @@ const BadScene kBadNumbers[] = {
     {"[parameters]\nk = \"0.1 kg\"\n[[body]]\nname = \"b\"\n[[obstacle]]\nname = \"o\"\nshape = \"sphere\"\n"
      "center = [5,0,0]\nradius = 1\non_hit = \"bounce\"\nrestitution = \"0.9 - k*u\"",
      "13:16", "number without unit [1] expected, got momentum [kg m/s]"},
-    {"[[body]]\nname = \"b\"\nshape = \"ellipsoid\"\nradii = [1, 0, 1]", "6:9", "radii of body 'b' must be positive"},
+    {"[[body]]\nname = \"b\"\nshape = \"ellipsoid\"\nradii = [1, 0, 1]", "6:10", "radii of body 'b' must be positive"},
     {"[[body]]\nname = \"b\"\nshape = \"box\"\nsize = [1,1,1]\nrounding = 0.6", "4:8",
      "body 'b': the rounding leaves nothing of the shape"},
     {"[[body]]\nname = \"b\"\nrounding = 0.6", "4:8", "a point cannot be rounded"},

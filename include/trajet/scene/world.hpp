@@ -69,10 +69,10 @@ struct World {
 
   /// A thing that is fixed in the world, or driven.
   struct Obstacle : Thing {
-    std::optional<Drive> drive{};         ///< none: fixed
-    Vector3 p_WB;                         ///< of the solid's frame at the start, m
-    Quaternion q_WB{1.0, 0.0, 0.0, 0.0};  ///< unit
-    Shape shape;                          ///< the solid where it stands at the start
+    std::shared_ptr<const Drive> drive{};  ///< none: fixed
+    Vector3 p_WB;                          ///< of the solid's frame at the start, m
+    Quaternion q_WB{1.0, 0.0, 0.0, 0.0};   ///< unit
+    Shape shape;                           ///< the solid where it stands at the start
     OnHit on_hit = OnHit::stop;
     RestitutionLaw restitution{};
     SourceLocation restitution_where{};
