@@ -111,7 +111,7 @@ TEST(BodyOverlap, PointsAlwaysMissEachOther) {
 class Looker : public RunObserver {
  public:
   RunWishes wishes() const override { return {.motion = true}; }
-  void begin(const World& world) override { overlaps_.emplace(world); }
+  void begin(const World& world) override { overlaps_.emplace(world_.emplace(world)); }
   void motion(const MotionPiece& piece) override {
     ++pieces;
     overlaps_->add(piece);
@@ -124,6 +124,7 @@ class Looker : public RunObserver {
   long pieces = 0;
 
  private:
+  std::optional<World> world_;  // it is asked when the run is over
   std::optional<BodyOverlaps> overlaps_;
 };
 
