@@ -48,9 +48,4 @@ ConvexPieces convex_pieces(const Solid& solid) {
   return pieces;
 }
 
-ConvexPieces moved(ConvexPieces pieces, const Vector3& by) {
-  for (ConvexCore& piece : pieces) piece = placed(std::move(piece), by, Matrix3::Identity());
-  return pieces;
-}
-
 }  // namespace trajet

@@ -179,7 +179,13 @@ class FixedSolid {
     if (rounding_) throw std::domain_error("a hollow shape cannot be rounded");
     if (!bounces_) return placed(Surroundings{}, center_, R_WB_, cavity);
     Made made;
-    for (const Cavity& wall : walls_of(cavity)) made.push_back(placed(Surroundings{}, center_, R_WB_, wall)[0]);
+    for (const Cavity& wall : walls_of(cavity)) {
+      const std::vector<Plane>& planes = wall.walls->planes;
+      const bool is_flat = planes.size() == 1 && !wall.walls->round && !wall.walls->ellipsoid;
+      made.push_back(is_flat ? placed(HalfSpace{}, planes[0].point,
+                                      frame(planes[0].normal.unitOrthogonal(), planes[0].normal), wall)[0]
+                             : placed(Surroundings{}, center_, R_WB_, wall)[0]);
+    }
     return made;
   }
 

@@ -41,9 +41,9 @@ void check_fits(const World& world) {
             body.where,
             names + ": a terrain is met by points only; for a body with extent make the ground " + "of shape \"mesh\"");
       const auto* cavity = std::get_if<Cavity>(&obstacle.shape);
-      if (cavity != nullptr && !is_round(body.solid))
+      if (cavity != nullptr && !is_round(body.solid) && std::holds_alternative<Surroundings>(obstacle.solid))
         throw InputError(body.where, names + ": the curved walls of what is hollow are met by points and balls only, " +
-                                         "the flat ones of a hollow box by all bodies");
+                                         "the flat ones of a hollow box with on_hit = \"bounce\" by all bodies");
       if (cavity == nullptr || radius < largest_ball(*cavity)) continue;
       throw InputError(body.where, names +
                                        ": the ball is too large for the inside, whose walls are met by balls of a " +

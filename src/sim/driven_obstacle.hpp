@@ -14,8 +14,10 @@ class DrivenObstacle {
   explicit DrivenObstacle(const World::Obstacle& obstacle);
 
   FrameMotion at(double t) { return frame_.at(t); }
-  /// Of the frame at its pivot with the axes of its solid, from `from` on towards `until`: see `driven_path`.
-  FramePath path(double from, double until) { return driven_path(frame_, obstacle_.q_WB, from, until); }
+  /// Of the frame of its solid, from `from` on towards `until`: see `driven_path`.
+  FramePath path(double from, double until) {
+    return driven_path(frame_, obstacle_.p_WB, obstacle_.q_WB, from, until);
+  }
 
   /// The first contact of a ball of that radius between two times on its Segment, where its position begins at
   /// component `offset`: as `first_contact` of collide/detect, whose path is what the obstacle sees of the ball's. In

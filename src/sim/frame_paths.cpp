@@ -1,6 +1,7 @@
 #include "frame_paths.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -92,13 +93,26 @@ FramePath body_path(const World::Body& body, const Segment<>& segment, double fr
   return {from, end, rows, errors};
 }
 
-FramePath driven_path(DrivenFrame& frame, const Quaternion& q_WB_start, double from, double until) {
+FramePath driven_path(DrivenFrame& frame, const Vector3& p_WB_start, const Quaternion& q_WB_start, double from,
+                      double until) {
   const Segment<7> piece = frame.piece(from, until);
-  FramePath::Coefficients rows(7, piece.degree() + 1);
+  // where the frame's origin is against the pivot: the products of a unit quaternion's components, all of them
+  using Product = Series<double, 2 * DrivenFrame::kOrder>;
+  std::array<Product, 4> part;
+  for (int i = 0; i < 4; ++i)
+    for (int k = 0; k <= piece.degree(); ++k) part[static_cast<std::size_t>(i)][k] = piece.coefficients()(3 + i, k);
+  const Vector3T<Product> arm =
+      rotate<Product>({part[0], part[1], part[2], part[3]}, Vector3(p_WB_start - frame.drive().pivot).cast<Product>());
+  const bool has_arm = p_WB_start != frame.drive().pivot;
+  FramePath::Coefficients rows =
+      FramePath::Coefficients::Zero(7, (has_arm && frame.drive().turns ? 2 : 1) * piece.degree() + 1);
+  for (int i = 0; i < 3; ++i)
+    for (int k = 0; k < rows.cols(); ++k) rows(i, k) = arm[i][k];
   for (int k = 0; k <= piece.degree(); ++k) {
     const auto column = piece.coefficients().col(k);
     const Quaternion q = Quaternion(column[3], column[4], column[5], column[6]) * q_WB_start;
-    rows.col(k) << column.head<3>(), q.w(), q.x(), q.y(), q.z();
+    rows.col(k).head<3>() += column.head<3>();
+    rows.col(k).tail<4>() << q.w(), q.x(), q.y(), q.z();
   }
   FramePath::Values errors = piece.error_bound();
   errors.tail<4>().setConstant(errors.tail<4>().norm());

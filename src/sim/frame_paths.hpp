@@ -11,7 +11,8 @@ namespace trajet {
 /// one path holds it to rounding: as it is reported, whatever way its orientation is carried.
 FramePath body_path(const World::Body& body, const Segment<>& segment, double from);
 
-/// The same of a driven obstacle's frame at its pivot, whose axes are those of its solid, from `from` towards `until`.
-FramePath driven_path(DrivenFrame& frame, const Quaternion& q_WB_start, double from, double until);
+/// The same of the frame of a driven obstacle, which stood like this at the start, from `from` towards `until`.
+FramePath driven_path(DrivenFrame& frame, const Vector3& p_WB_start, const Quaternion& q_WB_start, double from,
+                      double until);
 
 }  // namespace trajet

@@ -202,6 +202,17 @@ void RunLoop::bounce_off(int index, Pair pair, Impact impact) {
   const World::Body& body = body_of(pair);
   const World::Obstacle& obstacle = obstacle_of(pair);
   const double t = impact.elapsed;
+  const std::optional<FrameMotion> surface = encounters_.frame(pair.id.obstacle, t);
+  const Eigen::VectorXd q = moving.state(t);
+  const NormalMotion before = normal_motion(world_, pair, surface, q, moving.rate(t, q));
+  if (before.speed > 0.0 && pair.memory.contact_time == t) {
+    // what moves away from the contact that it has just left has not hit
+    const double height = before.speed * std::abs(moving.segment().t1() - t);
+    if (encounters_.stay_in_contact(pair.id, moving, height)) {
+      encounters_.search(pair.id.body, moving, moving.next().time);
+      return enqueue(index);
+    }
+  }
   recorder_.sample(t, pair.id.body, SamplePhase::before);
   const auto end = [&](const std::string& reason) {
     recorder_.impact(impact);
@@ -212,8 +223,6 @@ void RunLoop::bounce_off(int index, Pair pair, Impact impact) {
                "', which lets it pass: how long a solid is within another is not computed yet");
   if (const std::string reason = why_it_cannot_bounce(body); !reason.empty()) return end(reason);
   Instant instant(moving, t);
-  const std::optional<FrameMotion> surface = encounters_.frame(pair.id.obstacle, t);
-  const NormalMotion before = normal_motion(world_, pair, surface, instant.before(), instant.rate());
   const double speed = std::max(0.0, -before.speed);
   const double restitution = obstacle.restitution.at(speed);
   if (!(restitution >= 0.0 && restitution <= 1.0)) return fail(t, describe_restitution(obstacle, restitution, speed));

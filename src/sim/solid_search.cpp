@@ -67,13 +67,7 @@ const SolidSearch::Pieces& SolidSearch::pieces_of_obstacle(int index) {
   auto& made = obstacles_[static_cast<std::size_t>(index)];
   if (!made) {
     const World::Obstacle& obstacle = world_.obstacles[static_cast<std::size_t>(index)];
-    ConvexPieces cores = convex_pieces(obstacle.solid);
-    // a driven one has its frame at its pivot
-    if (obstacle.drive) {
-      const Matrix3 R_BW = rotation_matrix(obstacle.q_WB).transpose();
-      cores = moved(std::move(cores), R_BW * (obstacle.p_WB - obstacle.drive->pivot));
-    }
-    made = std::make_unique<Pieces>(Pieces{std::move(cores)});
+    made = std::make_unique<Pieces>(Pieces{convex_pieces(obstacle.solid)});
     if (made->cores.size() > kFew) made->tree = tree_of(made->cores);
   }
   return *made;
@@ -105,9 +99,10 @@ ContactResult SolidSearch::first_contact(int body_index, int obstacle_index, con
 ContactResult SolidSearch::search(const Stretch& stretch, double from, double to, const ContactMemory& memory) {
   const std::vector<int> candidates = near(stretch, from, to);
   const double middle = from + 0.5 * (to - from);
-  constexpr double kShortest = 1e-9;  // of a time: no shorter stretch meets less
-  const bool is_short = std::abs(to - from) <= kShortest * (std::abs(from) + std::abs(to));
-  if (candidates.size() <= kFew || is_short || !stretch.obstacle.tree)
+  // a shorter stretch meets no fewer than the body is near to where it begins
+  const bool is_walked = stretch.obstacle.tree && stretch.obstacle_path.is_at_rest();
+  if (!is_walked || candidates.size() <= kFew || middle == from || middle == to ||
+      candidates.size() <= kFew + 2 * near(stretch, from, from).size())
     return search_pieces(stretch, candidates, from, to, memory);
   const ContactResult first = search(stretch, from, middle, memory);
   return first.status == ContactStatus::separated ? search(stretch, middle, to, first.memory) : first;

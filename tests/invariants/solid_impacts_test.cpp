@@ -216,6 +216,33 @@ TEST(SolidImpacts, AllWaysOfTurningAndMethodsAgree) {
   }
 }
 
+TEST(SolidImpacts, ARoomKeepsWhatTumblesInIt) {
+  // at rest, and turning; the walls of one that turns give energy, but |v|^2/2 + w_b I w_b/2 m - W L_z / m stays
+  const Start start{{0.1, 0.05, 0}, {0.7, 0.4, 0.3}, {3, 2, 5}, {1, 2, 3}, 0.5};
+  const std::string body = "[[body]]\nname = \"b\"\nmass = 2.5\n" + shapes()[0] +
+                           "position = " + array(start.position) + "\nvelocity = " + array(start.velocity) +
+                           "\nangular_velocity = " + array(start.w) +
+                           "\norientation = {axis = [1, 2, 3], angle = 0.5}\n";
+  for (const double turn : {0.0, 0.8}) {
+    const std::string scene = body +
+                              "[[obstacle]]\nname = \"room\"\nshape = \"box\"\ncenter = [0, 0, 0]\nsize = [4, 3, "
+                              "3]\ninside = true\non_hit = \"bounce\"\nangular_velocity = [0, 0, " +
+                              number(turn) + "]\n";
+    const RunResult result = run_text("[time]\nend = 20\n" + scene);
+    ASSERT_EQ(result.status, RunStatus::finished) << result.failure;
+    EXPECT_GT(result.impacts.size(), 10u);
+    const Matrix3 inertia = inertia_of("[time]\nend = 0\n" + scene);
+    const auto integral = [&](const BodyState& state) {
+      const Kept all = kept(state, inertia);
+      const double orbit = 2.5 * (state.position.x() * state.velocity.y() - state.position.y() * state.velocity.x());
+      return all.energy - 2.5 * kGravity * state.position.z() - turn * (all.spin + orbit);
+    };
+    const BodyState& end = final_of(result, "b");
+    EXPECT_NEAR(integral(end), integral(at_start(scene)), 1e-9) << turn;
+    EXPECT_LT(end.position.norm(), 3.0) << "it is in the room still";
+  }
+}
+
 TEST(SolidImpacts, WhatCannotAnswerSaysSo) {
   const RunResult kinematic = run_text(
       "[time]\nend = 2\n[[body]]\nname = \"b\"\nshape = \"box\"\nsize = [1, 1, 1]\nposition = [0, 0, 2]\nvelocity = "

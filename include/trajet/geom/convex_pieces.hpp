@@ -12,7 +12,4 @@ using ConvexPieces = std::vector<ConvexCore>;
 
 ConvexPieces convex_pieces(const Solid& solid);
 
-/// The same moved, m.
-ConvexPieces moved(ConvexPieces pieces, const Vector3& by);
-
 }  // namespace trajet

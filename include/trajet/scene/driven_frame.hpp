@@ -31,6 +31,9 @@ struct FrameMotion {
 /// A drive evaluated: at times, and as polynomials.
 class DrivenFrame {
  public:
+  /// Of its polynomials.
+  static constexpr int kOrder = 20;
+
   /// The drive must live as long as this.
   explicit DrivenFrame(const World::Drive& drive);
 
@@ -44,8 +47,6 @@ class DrivenFrame {
   Segment<7> piece(double t, double until);
 
  private:
-  static constexpr int kOrder = 20;
-
   const World::Drive& drive_;
   ProgramExpansion expansion_;
   TimeSwitches switches_;
