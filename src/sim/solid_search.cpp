@@ -1,7 +1,6 @@
 #include "solid_search.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numeric>
 #include <utility>
@@ -40,10 +39,10 @@ ContactResult result_of(const TurningContact& contact, const FramePath& body) {
 BoxTree tree_of(const ConvexPieces& pieces) {
   std::vector<Aabb> boxes;
   for (const ConvexCore& piece : pieces) {
-    Aabb box{piece.vertices.front(), piece.vertices.front()};
-    for (const Vector3& vertex : piece.vertices) {
-      box.lower = box.lower.cwiseMin(vertex);
-      box.upper = box.upper.cwiseMax(vertex);
+    Aabb box;
+    for (int i = 0; i < 3; ++i) {
+      box.upper[i] = support(piece, Vector3::Unit(i)).height;
+      box.lower[i] = -support(piece, -Vector3::Unit(i)).height;
     }
     boxes.push_back(grown(box, piece.rounding));
   }
