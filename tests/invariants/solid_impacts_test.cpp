@@ -243,6 +243,45 @@ TEST(SolidImpacts, ARoomKeepsWhatTumblesInIt) {
   }
 }
 
+TEST(SolidImpacts, AMeshIsMetAsItsTrianglesAre) {
+  // the same hills once as one mesh, whose triangles stand under a tree of its own, once as 288 obstacles
+  constexpr int kSide = 12;
+  TriangleMesh hills;
+  for (int i = 0; i <= kSide; ++i)
+    for (int j = 0; j <= kSide; ++j)
+      hills.vertices.push_back({-1.5 + 3.0 * i / kSide, -1.5 + 3.0 * j / kSide, 0.05 * ((7 * i + 5 * j) % 3)});
+  for (int i = 0; i < kSide; ++i)
+    for (int j = 0; j < kSide; ++j) {
+      const int a = i * (kSide + 1) + j, b = a + kSide + 1;
+      hills.triangles.push_back({a, b, b + 1});
+      hills.triangles.push_back({a, b + 1, a + 1});
+    }
+  Random random(14);
+  for (int i = 0; i < 12; ++i) {
+    const Start start{{random.between(-0.3, 0.3), random.between(-0.3, 0.3), 1.2},
+                      random.vector(0.5),
+                      random.vector(8.0),
+                      random.vector(1.0),
+                      random.between(0.0, 6.0)};
+    Scene one =
+        parse_scene("[time]\nend = 1\n" + solid("shape = \"box\"\nsize = [0.5, 0.3, 0.2]\n", start), "test.toml");
+    Scene many = one;
+    one.obstacles.push_back({.name = "hills", .shape = MeshShape{hills}});
+    for (std::size_t k = 0; k < hills.triangles.size(); ++k) {
+      const auto corner = [&](std::size_t c) {
+        return Expression(hills.vertices[static_cast<std::size_t>(hills.triangles[k][c])]);
+      };
+      many.obstacles.push_back(
+          {.name = "t" + std::to_string(k), .shape = TriangleShape{corner(0), corner(1), corner(2)}});
+    }
+    const RunResult mesh = run(one), triangles = run(many);
+    ASSERT_EQ(mesh.impacts.size(), 1u) << i << mesh.failure;
+    ASSERT_EQ(triangles.impacts.size(), 1u) << i << triangles.failure;
+    EXPECT_NEAR(mesh.impacts[0].time, triangles.impacts[0].time, 1e-13) << i;
+    EXPECT_LT((mesh.impacts[0].point - triangles.impacts[0].point).norm(), 1e-11) << i;
+  }
+}
+
 TEST(SolidImpacts, WhatCannotAnswerSaysSo) {
   const RunResult kinematic = run_text(
       "[time]\nend = 2\n[[body]]\nname = \"b\"\nshape = \"box\"\nsize = [1, 1, 1]\nposition = [0, 0, 2]\nvelocity = "
