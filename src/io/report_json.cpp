@@ -50,6 +50,12 @@ Json object(const Impact& impact) {
                {"angular_velocity_after", array(impact.angular_velocity_after)},
                {"impulse", array(impact.impulse)},
                {"time_error_bound", impact.time_error_bound}};
+  if (impact.partner) {
+    json["with_velocity_before"] = array(impact.partner->velocity_before);
+    json["with_velocity_after"] = array(impact.partner->velocity_after);
+    json["with_angular_velocity_before"] = array(impact.partner->angular_velocity_before);
+    json["with_angular_velocity_after"] = array(impact.partner->angular_velocity_after);
+  }
   if (!impact.touched) return json;
   json["features"] = {name(impact.touched->of_body), name(impact.touched->of_obstacle)};
   for (const Vector3& point : impact.touched->points) json["points"].push_back(array(point));

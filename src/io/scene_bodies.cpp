@@ -107,9 +107,11 @@ BodyDefinition read_body(const TableReader& table) {
                "inertia",
                "points",
                "rounding",
+               "restitution",
+               "collides_with",
                "color"};
   keys.insert(keys.end(), kind.keys.begin(), kind.keys.end());
-  const Keys planned = {"restitution", "friction"};
+  const Keys planned = {"friction"};
   table.check_keys(keys, planned);
 
   BodyDefinition body;
@@ -120,6 +122,8 @@ BodyDefinition read_body(const TableReader& table) {
   read_translation(table, body);
   read_rotation(table, body);
   if (kind.name != "hull" && table.has("points")) read_points(table, body);
+  body.restitution = table.optional_scalar("restitution", kDimensionless);
+  body.collides_with = read_collides_with(table);
   body.color = read_color(table);
   return body;
 }

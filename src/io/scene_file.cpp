@@ -39,8 +39,8 @@ class SceneReader {
   }
 
   Scene read() {
-    constexpr std::array<std::string_view, 10> kKeys{"title", "up",       "parameters", "time",  "method",
-                                                     "body",  "obstacle", "state",      "event", "exact"};
+    constexpr std::array<std::string_view, 11> kKeys{"title",    "up",   "parameters", "time",  "method", "body",
+                                                     "obstacle", "pair", "state",      "event", "exact"};
     constexpr std::array<std::string_view, 2> kUpAxes{"y", "z"};
     const TableReader root = reader(document_);
     root.check_keys(kKeys);
@@ -57,6 +57,7 @@ class SceneReader {
     for (const TableReader& table : array_of_tables(document_, "body"))
       scene.bodies.push_back(detail::read_body(table));
     read_obstacles(scene);
+    for (const TableReader& table : array_of_tables(document_, "pair")) scene.pairs.push_back(detail::read_pair(table));
     for (const TableReader& table : array_of_tables(document_, "state")) scene.states.push_back(read_state(table));
     for (const TableReader& table : array_of_tables(document_, "event")) scene.events.push_back(read_event(table));
     if (root.has("exact")) read_exact(root.subtable("exact").titled("[exact]"), "", scene);

@@ -37,6 +37,7 @@ constexpr Optional<BodyDefinition> kBodyKeys[] = {
     {"torque", kTorque, &BodyDefinition::torque},
     {"torque_body", kTorque, &BodyDefinition::torque_body},
     {"force_point", kLength, &BodyDefinition::force_point},
+    {"restitution", kDimensionless, &BodyDefinition::restitution},
 };
 constexpr Optional<ObstacleDefinition> kObstacleKeys[] = {
     {"center", kLength, &ObstacleDefinition::center},

@@ -183,8 +183,6 @@ ObstacleDefinition read_obstacle(const TableReader& table) {
                         (may_be_hollow ? Keys{"inside"} : Keys{}) + (may_be_round ? Keys{"rounding"} : Keys{}),
                     planned);
 
-  constexpr std::array<std::string_view, 3> kOnHit{"stop", "bounce", "pass"};
-  constexpr std::array<std::string_view, 1> kPlannedOnHit{"stick"};
   ObstacleDefinition obstacle{.name = table.text("name"), .shape = PointShape{}};
   obstacle.where = table.where("name");
   if (kind.needs_center || (has_center && titled.has(kind.center)))
@@ -198,8 +196,7 @@ ObstacleDefinition read_obstacle(const TableReader& table) {
         std::make_shared<const OrientationDefinition>(read_orientation(titled.subtable("orientation")));
   if (table.has("velocity")) obstacle.velocity = table.vector("velocity", kSpeed);
   if (table.has("angular_velocity")) obstacle.angular_velocity = table.vector("angular_velocity", kAngularVelocity);
-  obstacle.on_hit =
-      std::array{OnHit::stop, OnHit::bounce, OnHit::pass}[table.choice("on_hit", kOnHit, 0, kPlannedOnHit)];
+  obstacle.on_hit = read_on_hit(table);
   if (table.has("restitution")) obstacle.restitution = table.scalar("restitution", kDimensionless);
   obstacle.color = read_color(table);
   return obstacle;

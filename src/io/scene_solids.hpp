@@ -24,6 +24,15 @@ ShapeDefinition read_hull(const TableReader& table);
 /// Reads the `parts` of a compound; with masses or densities those of a body.
 std::vector<PartDefinition> read_parts(const TableReader& table, bool have_masses);
 
+/// What the key `on_hit` says: stop, where there is none.
+OnHit read_on_hit(const TableReader& table);
+
+/// What the key `collides_with` of a body says: a word, or an array of names.
+CollidesWith read_collides_with(const TableReader& table);
+
+/// Reads a table `[[pair]]`.
+PairDefinition read_pair(const TableReader& table);
+
 /// Reads a table `[[body]]`.
 BodyDefinition read_body(const TableReader& table);
 

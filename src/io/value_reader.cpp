@@ -76,6 +76,18 @@ std::string TableReader::text(std::string_view key) const {
   return node.as_string()->get();
 }
 
+std::vector<std::string> TableReader::texts(std::string_view key) const {
+  const toml::node& node = required(key);
+  const std::string expected = quote(key) + ": an array of strings expected";
+  if (!node.is_array()) fail_type(node, expected);
+  std::vector<std::string> found;
+  for (const toml::node& each : *node.as_array()) {
+    if (!each.is_string()) fail_type(each, expected);
+    found.push_back(each.as_string()->get());
+  }
+  return found;
+}
+
 bool TableReader::flag(std::string_view key) const {
   const toml::node& node = required(key);
   if (!node.is_boolean()) fail_type(node, quote(key) + ": true or false expected");

@@ -36,10 +36,13 @@ class TableReader {
   void check_keys(std::span<const std::string_view> allowed, std::span<const std::string_view> planned = {}) const;
 
   bool has(std::string_view key) const { return table_.contains(key); }
+  bool is_array(std::string_view key) const { return has(key) && table_.get(key)->is_array(); }
   [[noreturn]] void fail(std::string_view key, const std::string& message) const;
 
   // Each throws if the key is missing, unless there is a default.
   std::string text(std::string_view key) const;
+  /// An array of strings, which may be empty.
+  std::vector<std::string> texts(std::string_view key) const;
   /// true or false.
   bool flag(std::string_view key) const;
   long whole_number(std::string_view key, long smallest, long default_value) const;

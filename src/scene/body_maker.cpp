@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "restitution_maker.hpp"
 #include "solid_maker.hpp"
 #include "trajet/geom/compound.hpp"
 #include "trajet/geom/mass_properties.hpp"
@@ -128,6 +129,7 @@ World::Body make_body(const BodyDefinition& definition, const SceneNumbers& numb
   body.rotation = rotation(definition, body.solid, numbers, method, may_bounce);
   if (body.rotation && is_turned_by_impacts(definition, body.solid, numbers))
     body.inertia = inertia(definition, body.solid, numbers);
+  set_restitution(definition.restitution, "body '" + definition.name + "'", numbers, body.surface);
   for (const NamedExpression& point : definition.points)
     body.points.push_back(
         {point.name, numbers.vector(point.value, "point '" + point.name + "'" + of_body(definition))});

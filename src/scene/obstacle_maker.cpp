@@ -6,8 +6,17 @@
 #include "restitution_maker.hpp"
 #include "scene_numbers.hpp"
 #include "solid_maker.hpp"
+#include "trajet/portable.hpp"
 
 namespace trajet {
+namespace {
+
+bool is_in_pair(const Scene& scene, const std::string& name) {
+  return ranges::any_of(scene.pairs,
+                        [&](const PairDefinition& pair) { return pair.first == name || pair.second == name; });
+}
+
+}  // namespace
 
 void make_obstacles(const Scene& scene, const ParameterSet& parameters, World& world) {
   const SceneNumbers numbers(parameters.symbols);
@@ -17,10 +26,15 @@ void make_obstacles(const Scene& scene, const ParameterSet& parameters, World& w
   world.obstacles.reserve(scene.obstacles.size());
   for (const ObstacleDefinition& obstacle : scene.obstacles) {
     std::vector<World::Obstacle> made = make_obstacles(obstacle, numbers, at_start);
-    set_restitution(obstacle, parameters.symbols, numbers, made, world.warnings);
+    Surface surface{.on_hit = obstacle.on_hit};
+    set_restitution(obstacle.restitution, "obstacle '" + obstacle.name + "'", numbers, surface);
+    if (obstacle.restitution && obstacle.on_hit != OnHit::bounce && !is_in_pair(scene, obstacle.name))
+      world.warnings.push_back("obstacle '" + obstacle.name +
+                               "' has a restitution, which nothing needs: its on_hit is not \"bounce\"");
     const auto drive = make_drive(obstacle, parameters.symbols, at_start, world.epoch);
     for (World::Obstacle& each : made) {
       each.drive = drive;
+      each.surface = surface;
       world.obstacles.push_back(std::move(each));
     }
   }

@@ -1,13 +1,16 @@
 #pragma once
 
+#include <optional>
+#include <string>
+
 #include "scene_numbers.hpp"
-#include "trajet/scene/world.hpp"
+#include "trajet/scene/surface.hpp"
 
 namespace trajet {
 
-/// Gives the obstacles that a definition has become their restitution, a number or a formula of the speed of approach
-/// `u`. Throws InputError at what is wrong with it; `warnings` get a sentence on one that nothing needs.
-void set_restitution(const ObstacleDefinition& obstacle, const Symbols& constants, const SceneNumbers& numbers,
-                     std::vector<World::Obstacle>& made, std::vector<std::string>& warnings);
+/// Gives a surface the restitution of a definition, if there is one: a number or a formula of the speed of approach
+/// `u`. `what` names it in messages: "obstacle 'ground'". Throws InputError at what is wrong with it.
+void set_restitution(const std::optional<Expression>& formula, const std::string& what, const SceneNumbers& numbers,
+                     Surface& surface);
 
 }  // namespace trajet

@@ -89,6 +89,8 @@ class UnitCheck {
       if (obstacle.orientation) check_orientation(*obstacle.orientation);
       if (obstacle.restitution) require_dimension(*obstacle.restitution, kDimensionless, at_impact());
     }
+    for (const PairDefinition& pair : scene_.pairs)
+      if (pair.restitution) require_dimension(*pair.restitution, kDimensionless, at_impact());
     for (const StateDefinition& state : scene_.states) check_rate(state);
     for (const EventDefinition& event : scene_.events) {
       measure(event.when, global());
@@ -133,6 +135,7 @@ class UnitCheck {
 
   void check_body(const BodyDefinition& body) const {
     std::visit([this](const auto& shape) { check_shape(shape); }, body.shape);
+    if (body.restitution) require_dimension(*body.restitution, kDimensionless, at_impact());
     check(body.rounding, kLength);
     check(body.position, kLength);
     check(body.velocity, kSpeed);

@@ -252,7 +252,6 @@ std::vector<World::Obstacle> make_obstacles(const ObstacleDefinition& definition
     for (World::Obstacle& obstacle : made) {
       obstacle.name = definition.name;
       obstacle.where = definition.where;
-      obstacle.on_hit = definition.on_hit;
       obstacle.color = definition.color;
     }
     return made;

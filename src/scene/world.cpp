@@ -14,6 +14,7 @@
 #include "law_symbols.hpp"
 #include "never_zero.hpp"
 #include "obstacle_maker.hpp"
+#include "pair_maker.hpp"
 #include "partition.hpp"
 #include "scene_method.hpp"
 #include "scene_names.hpp"
@@ -54,6 +55,8 @@ class WorldBuilder {
     place_in_groups();
     for (std::size_t g = 0; g < world_.groups.size(); ++g) compile_group(static_cast<int>(g));
     check_masses();
+    make_companies(scene_, world_);
+    make_pairs(scene_, numbers_, world_);
     check_fits(world_);
     check_starts(world_);
     check_that_method_suits(scene_, world_);
@@ -152,12 +155,19 @@ class WorldBuilder {
     return static_cast<int>(offset);
   }
 
+  /// Whether there is something that a body may bounce off.
+  bool may_bounce(const BodyDefinition& body) const {
+    const auto kind = body.collides_with.kind;
+    const bool meets_bodies = kind == CollidesWith::Kind::all || kind == CollidesWith::Kind::listed;
+    return (meets_bodies && scene_.bodies.size() > 1) ||
+           ranges::any_of(scene_.obstacles, [](const auto& each) { return each.on_hit == OnHit::bounce; }) ||
+           ranges::any_of(scene_.pairs, [](const auto& each) { return each.on_hit == OnHit::bounce; });
+  }
+
   void place_in_groups() {
-    const bool may_bounce =
-        ranges::find(world_.obstacles, OnHit::bounce, &World::Obstacle::on_hit) != world_.obstacles.end();
     for (std::size_t i = 0; i < scene_.bodies.size(); ++i) {
       const BodyDefinition& definition = scene_.bodies[i];
-      World::Body body = make_body(definition, numbers_, scene_.method, may_bounce);
+      World::Body body = make_body(definition, numbers_, scene_.method, may_bounce(definition));
       body.color = definition.color;
       body.group = group_of(static_cast<int>(i));
       body.offset = append(group(body.group).start, start_state(definition, body, numbers_));

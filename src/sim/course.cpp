@@ -196,7 +196,7 @@ std::optional<MotionPiece> Course::hand_on(double t) {
 void Course::restart(const Instant& instant) {
   const double t = instant.time();
   pass_error(t);
-  error_.jump(instant.derivative);
+  error_.jump(instant.derivative, instant.further_errors);
   const auto same = [](const RestingContact& a, const RestingContact& b) {
     return a.body == b.body && a.obstacle == b.obstacle && a.normal == b.normal && a.point == b.point;
   };

@@ -90,6 +90,8 @@ class Course {
   Eigen::VectorXd rate(double t, const Eigen::VectorXd& q) const;
   /// How far the state may be off at a time on the current Segment, in each component's unit: estimated.
   Eigen::VectorXd error_bound(double t) { return error_.bound(law(), segment_, t); }
+  /// The same as a sum of errors, each a column times a number between -1 and 1.  // (state x any number)
+  Eigen::MatrixXd error_columns(double t) { return error_.columns(law(), segment_, t); }
   /// The same along one direction of the state.
   double error_bound_along(const Eigen::VectorXd& direction, double t) {
     return error_.bound_along(direction, law(), segment_, t);

@@ -5,6 +5,7 @@
 #include <variant>
 
 #include "solid_bounce.hpp"
+#include "swept_box.hpp"
 #include "trajet/collide/detect/contact_table.hpp"
 #include "trajet/event/path.hpp"
 #include "trajet/geom/closest_point.hpp"
@@ -18,7 +19,8 @@ constexpr std::size_t kFew = 8;
 
 }  // namespace
 
-Encounters::Encounters(const World& world) : world_(world), bodies_(world.bodies.size()), solids_(world) {
+Encounters::Encounters(const World& world, SolidSearch& solids)
+    : world_(world), bodies_(world.bodies.size()), solids_(solids) {
   // the course's 3.1 and 3.2 know whole steps only
   const bool walks = world.obstacles.size() > kFew && world.locate == Locator::polynomial;
   const auto box = [&](int index) {
@@ -68,22 +70,6 @@ void Encounters::search_whole(Pair& pair, const Course& course) {
   pair.searched_to = end;
 }
 
-Aabb Encounters::swept(int body, const Course& course, double from, double to) const {
-  const World::Body& moving = world_.bodies[static_cast<std::size_t>(body)];
-  const PointPath path(course.segment(), moving.offset);
-  Aabb box;
-  for (int i = 0; i < 3; ++i) {
-    const Range range = path.range(i, from - path.t0(), to - path.t0());
-    box.lower[i] = range.lower;
-    box.upper[i] = range.upper;
-  }
-  // far above the rounding of boxes and of the contacts that touch them
-  constexpr double kMargin = 1e-9;
-  const double size = std::max(box.lower.lpNorm<Eigen::Infinity>(), box.upper.lpNorm<Eigen::Infinity>());
-  const double radius = bounding_radius(moving.solid);
-  return grown(box, radius + kMargin * (radius + size));
-}
-
 std::optional<std::vector<int>> Encounters::near(const Aabb& swept, std::size_t most) const {
   std::vector<int> found;
   const bool are_few = tree_->visit_overlapping(swept, [&](int index) {
@@ -112,12 +98,14 @@ void Encounters::follow(int body, const Course& course, double until) {
     pair.ahead = pair.memory;
     pair.searched_to = start;
   }
-  for (const int obstacle : always_) search_whole(find_or_add(body, obstacle, start), course);
+  for (const int obstacle : always_)
+    if (world_.meets_obstacle(body, obstacle)) search_whole(find_or_add(body, obstacle, start), course);
   search(body, course, until);
 }
 
 void Encounters::search(int body, const Course& course, double until) {
   if (!tree_) return;
+  const World::Body& moving = world_.bodies[static_cast<std::size_t>(body)];
   Around& around = this->around(body);
   while (around.searched_to < until) {
     const double from = around.searched_to;
@@ -130,20 +118,21 @@ void Encounters::search(int body, const Course& course, double until) {
       to = std::min(to, last);
     }
     if (around.stride > 0.0) to = std::min(to, from + 2.0 * around.stride);
-    std::optional<std::vector<int>> candidates = near(swept(body, course, from, to), kFew);
+    std::optional<std::vector<int>> candidates = near(swept_box(moving, course.segment(), from, to), kFew);
     // in boxes where it is already, however short the piece
-    const std::size_t start_count = candidates ? 0 : count_near(swept(body, course, from, from));
+    const std::size_t start_count = candidates ? 0 : count_near(swept_box(moving, course.segment(), from, from));
     const std::size_t most = start_count > kFew ? start_count + kFew : kFew;
-    if (most > kFew) candidates = near(swept(body, course, from, to), most);
+    if (most > kFew) candidates = near(swept_box(moving, course.segment(), from, to), most);
     while (!candidates) {
       const double middle = from + 0.5 * (to - from);
       constexpr double kShortest = 1e-12;  // of the time: no shorter piece meets less
       const bool is_shortest = middle - from <= kShortest * std::abs(from) || middle == from;
       if (!is_shortest) to = middle;
-      candidates = near(swept(body, course, from, to), is_shortest ? in_tree_.size() : most);
+      candidates = near(swept_box(moving, course.segment(), from, to), is_shortest ? in_tree_.size() : most);
     }
     around.stride = to - from;
     ranges::sort(*candidates);
+    std::erase_if(*candidates, [&](int obstacle) { return !world_.meets_obstacle(body, obstacle); });
     // what is far away now is not known of when it is met again
     std::erase_if(around.pairs, [&](const Pair& pair) {
       return !pair.is_lasting && !ranges::binary_search(*candidates, pair.id.obstacle) &&

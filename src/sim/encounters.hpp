@@ -40,7 +40,8 @@ struct RelativeMotion {
 /// logarithm of how much there is.
 class Encounters {
  public:
-  explicit Encounters(const World& world);
+  /// Both outlive the object.
+  Encounters(const World& world, SolidSearch& solids);
 
   /// The course of the body has made a Segment: searches its contacts, up to time `until` at least.
   void follow(int body, const Course& course, double until);
@@ -96,12 +97,11 @@ class Encounters {
   /// The bounded obstacles near a stretch of a body's path, if they are not more than `most`.
   std::optional<std::vector<int>> near(const Aabb& swept, std::size_t most) const;
   std::size_t count_near(const Aabb& swept) const;
-  Aabb swept(int body, const Course& course, double from, double to) const;
 
   const World& world_;
   std::vector<Around> bodies_;
   std::map<int, DrivenObstacle> driven_;  // by the index of the obstacle
-  SolidSearch solids_;
+  SolidSearch& solids_;
   std::vector<int> always_;   // obstacles that are searched whatever is near
   std::vector<int> in_tree_;  // the others, in the order of the tree
   std::optional<BoxTree> tree_;

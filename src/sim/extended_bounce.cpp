@@ -68,7 +68,8 @@ void bounce_extended(const World& world, const Pair& pair, Instant& instant) {
   }
   RealVector velocity = slice.velocity(*q);
   const Real approach = velocity.dot(gap.normal);
-  const double restitution = obstacle.restitution.at(-static_cast<double>(approach));
+  const double restitution =
+      world.surface(pair.id.body, pair.id.obstacle).restitution.at(-static_cast<double>(approach));
   velocity -= (Real(1) + Real(restitution)) * approach * gap.normal;
   // from the impact on to the instant, some roundings of time later or earlier
   const Real rest = nominal - tau;

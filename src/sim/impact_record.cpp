@@ -5,11 +5,10 @@
 namespace trajet {
 namespace {
 
-Impact without_impulse(const World& world, PairId id, const Eigen::VectorXd& q) {
-  const World::Body& body = world.bodies[static_cast<std::size_t>(id.body)];
+Impact without_impulse(const World::Body& body, const std::string& with, const Eigen::VectorXd& q) {
   Impact impact;
   impact.body = body.name;
-  impact.with = world.obstacles[static_cast<std::size_t>(id.obstacle)].name;
+  impact.with = with;
   impact.position = q.segment<3>(body.offset);
   impact.velocity_before = impact.velocity_after = q.segment<3>(body.offset + 3);
   impact.angular_velocity_before = impact.angular_velocity_after = angular_velocity(body, q);
@@ -17,27 +16,47 @@ Impact without_impulse(const World& world, PairId id, const Eigen::VectorXd& q) 
   return impact;
 }
 
+void put_contact(const ContactResult& contact, Impact& impact) {
+  impact.elapsed = contact.time;
+  impact.kind = contact.status == ContactStatus::graze ? ImpactKind::graze : ImpactKind::hit;
+  impact.point = contact.point;
+  impact.normal = contact.normal;
+  impact.time_error_bound = contact.time_error_bound;
+  impact.touched = contact.touched;
+}
+
+const World::Body& body_at(const World& world, int index) { return world.bodies[static_cast<std::size_t>(index)]; }
+
+const std::string& name_of_obstacle(const World& world, int index) {
+  return world.obstacles[static_cast<std::size_t>(index)].name;
+}
+
 }  // namespace
 
 Impact describe(const World& world, const Pair& pair, const Eigen::VectorXd& q) {
-  Impact impact = without_impulse(world, pair.id, q);
-  impact.elapsed = pair.contact.time;
-  impact.kind = pair.contact.status == ContactStatus::graze ? ImpactKind::graze : ImpactKind::hit;
-  impact.point = pair.contact.point;
-  impact.normal = pair.contact.normal;
-  impact.time_error_bound = pair.contact.time_error_bound;
-  impact.touched = pair.contact.touched;
+  Impact impact = without_impulse(body_at(world, pair.id.body), name_of_obstacle(world, pair.id.obstacle), q);
+  put_contact(pair.contact, impact);
+  return impact;
+}
+
+Impact describe(const World& world, const Meeting& meeting, const Eigen::VectorXd& q_first,
+                const Eigen::VectorXd& q_second) {
+  const World::Body& other = body_at(world, meeting.id.second);
+  Impact impact = without_impulse(body_at(world, meeting.id.first), other.name, q_first);
+  put_contact(meeting.contact, impact);
+  ImpactPartner& partner = impact.partner.emplace();
+  partner.velocity_before = partner.velocity_after = other.slice().velocity(q_second);
+  partner.angular_velocity_before = partner.angular_velocity_after = angular_velocity(other, q_second);
   return impact;
 }
 
 Impact describe(const World& world, const RestingContact& contact, ImpactKind kind, double time,
                 const Eigen::VectorXd& q) {
-  Impact impact = without_impulse(world, {contact.body, contact.obstacle}, q);
+  Impact impact = without_impulse(body_at(world, contact.body), name_of_obstacle(world, contact.obstacle), q);
   impact.elapsed = time;
   impact.kind = kind;
   impact.normal = contact.normal;
-  impact.point =
-      impact.position - bounding_radius(world.bodies[static_cast<std::size_t>(contact.body)].solid) * contact.normal;
+  impact.point = impact.position - bounding_radius(body_at(world, contact.body).solid) * contact.normal;
   return impact;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "encounters.hpp"
+#include "meetings.hpp"
 #include "trajet/sim/run_result.hpp"
 
 namespace trajet {
@@ -8,6 +9,9 @@ namespace trajet {
 /// The contact that was found of a pair as reports have it, before anything has responded to it; `q` is the state of
 /// the body's group then.
 Impact describe(const World& world, const Pair& pair, const Eigen::VectorXd& q);
+/// The same of two bodies, in the states of their groups.
+Impact describe(const World& world, const Meeting& meeting, const Eigen::VectorXd& q_first,
+                const Eigen::VectorXd& q_second);
 /// The beginning or the end of a lasting contact, without an impulse.
 Impact describe(const World& world, const RestingContact& contact, ImpactKind kind, double time,
                 const Eigen::VectorXd& q);

@@ -39,6 +39,8 @@ class Instant {
 
   /// The derivative of `q` by `before`, at one time: what an error of the state becomes.  // (state x state)
   Eigen::MatrixXd derivative;
+  /// What errors of another course have become of, each a column.  // (state x any number)
+  Eigen::MatrixXd further_errors{};
 
   /// Where the course carries its state in extended precision: three components of the new state, from `first` on, with
   /// all their digits. `q` takes them rounded.

@@ -48,8 +48,9 @@ Eigen::MatrixXd derivative_of_bounce(const World& world, const Pair& pair, const
   if (!(speed < 0.0)) return derivative;
 
   // v+ = v - (1 + e(u)) (c . n) n with u = -c . n and c = r' - s, r' moving as v does; s is the surface's velocity
-  const double factor = 1.0 + obstacle.restitution.at(-speed);
-  const double speed_factor = obstacle.restitution.change_rate(-speed);
+  const RestitutionLaw& restitution = world.surface(pair.id.body, pair.id.obstacle).restitution;
+  const double factor = 1.0 + restitution.at(-speed);
+  const double speed_factor = restitution.change_rate(-speed);
   const double radius = bounding_radius(body.solid);
   Matrix3 N, S = Matrix3::Zero();   // how normal and surface velocity change from place to place
   Vector3 moved = Vector3::Zero();  // how v+ changes where the obstacle alone moves on

@@ -146,7 +146,8 @@ bool LastingContacts::goes_on(const RestingContact& contact, int next, const Eig
   const double radius = bounding_radius(body(contact.body).solid);
   const Vector3 foot = position - radius * contact.normal;
   const Vector3 ahead = ahead_of(foot, velocity);
-  if (other.on_hit != OnHit::bounce || !is_flat_at(other.shape, ahead, contact.normal)) return false;
+  if (world_.surface(contact.body, next).on_hit != OnHit::bounce || !is_flat_at(other.shape, ahead, contact.normal))
+    return false;
   const double size = position.norm() + radius;
   const Vector3 above = foot + size * contact.normal;
   const Vector3 apart = closest_point_of(other.shape, above) - foot;
@@ -175,7 +176,9 @@ bool LastingContacts::slides_onto(PairId id, const Course& course, const Eigen::
   const Vector3 place = position - radius * normal;
   return ranges::any_of(encounters_.pairs(id.body), [&](const Pair& pair) {
     const World::Obstacle& left = obstacle(pair.id.obstacle);
-    if (pair.id == id || left.on_hit != OnHit::bounce || !is_flat_at(left.shape, place, normal)) return false;
+    if (pair.id == id || world_.surface(id.body, pair.id.obstacle).on_hit != OnHit::bounce ||
+        !is_flat_at(left.shape, place, normal))
+      return false;
     return (closest_point_of(left.shape, place) - place).norm() <= kStep * (position.norm() + radius) &&
            goes_on({id.body, pair.id.obstacle, offset, normal, place, normal}, id.obstacle, q);
   });

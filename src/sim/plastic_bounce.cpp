@@ -11,7 +11,8 @@ std::vector<Impact> bounce_plastic(const World& world, const Encounters& encount
                                    const Impact& impact, double mass, Instant& instant) {
   const auto is_plastic = [&](const Pair& pair) {
     const World::Obstacle& obstacle = world.obstacles[static_cast<std::size_t>(pair.id.obstacle)];
-    return is_hit(pair.contact) && obstacle.on_hit == OnHit::bounce && obstacle.restitution.is_constant(0.0) &&
+    const Surface& surface = world.surface(pair.id.body, pair.id.obstacle);
+    return is_hit(pair.contact) && surface.on_hit == OnHit::bounce && surface.restitution.is_constant(0.0) &&
            !obstacle.drive;
   };
   if (!is_plastic(handled)) return {};

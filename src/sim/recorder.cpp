@@ -30,7 +30,6 @@ Recorder::Recorder(const World& world, const Courses& courses, RunObserver& obse
   result_.start_time = world.epoch;
   result_.parameters = world.parameters;
   result_.warnings = world.warnings;
-  if (BodyOverlaps::are_possible(world)) overlaps_.emplace(world);
 }
 
 bool Recorder::sample_until(double& time) {
@@ -61,10 +60,7 @@ double Recorder::reached_time() const {
   return direction_ * (sampled - end_time()) > 0.0 ? sampled : end_time();
 }
 
-void Recorder::hand_on_no_more() {
-  wishes_.motion = false;
-  overlaps_.reset();
-}
+void Recorder::hand_on_no_more() { wishes_.motion = false; }
 
 void Recorder::sample(double time, int body, SamplePhase phase) {
   if (!wishes_.samples) return;
@@ -98,11 +94,8 @@ Sample Recorder::sample_at(double time, std::optional<int> only, SamplePhase pha
 }
 
 void Recorder::motion(Course& course, double t) {
-  if (!wishes_.motion && !overlaps_) return;
-  const std::optional<MotionPiece> piece = course.hand_on(t);
-  if (!piece) return;
-  if (wishes_.motion) observer_.motion(*piece);
-  if (overlaps_) overlaps_->add(*piece);
+  if (!wishes_.motion) return;
+  if (const std::optional<MotionPiece> piece = course.hand_on(t)) observer_.motion(*piece);
 }
 
 void Recorder::put_on_clock(Impact& impact) const {
@@ -139,15 +132,6 @@ void Recorder::warn_of_tie(const Impact& impact, const std::string& body, const 
        "' are closer in time than their error bounds: which is first is decided by rounding");
 }
 
-void Recorder::warn_of_overlap() {
-  if (!overlaps_) return;
-  const std::optional<BodyOverlaps::Overlap> overlap = overlaps_->finish(result_.elapsed);
-  if (!overlap) return;
-  const auto name = [&](int body) { return "'" + world_.bodies[static_cast<std::size_t>(body)].name + "'"; };
-  warn("bodies " + name(overlap->first) + " and " + name(overlap->second) + " overlap from t = " +
-       shortest_text(world_.epoch + overlap->time) + " s on: bodies do not meet each other, they pass through");
-}
-
 void Recorder::warn(const std::string& text) {
   if (ranges::find(result_.warnings, text) == result_.warnings.end()) result_.warnings.push_back(text);
 }
@@ -172,7 +156,6 @@ void Recorder::bound_final_errors() {
 RunResult Recorder::result() {
   result_.end_time = world_.epoch + result_.elapsed;
   for (const auto& course : courses_) motion(*course, result_.elapsed);
-  warn_of_overlap();
   if (result_.status != RunStatus::stopped && last_sample_ != result_.elapsed) sample(result_.elapsed);
   result_.final = sample_at(result_.elapsed, std::nullopt, SamplePhase::none);
   bound_final_errors();

@@ -6,7 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "body_overlaps.hpp"
 #include "course.hpp"
 #include "time_limit.hpp"
 #include "trajet/scene/world.hpp"
@@ -63,7 +62,6 @@ class Recorder {
   void put_on_clock(Impact& impact) const;
   Sample sample_at(double time, std::optional<int> body, SamplePhase phase) const;
   void bound_final_errors();
-  void warn_of_overlap();
 
   const World& world_;
   const Courses& courses_;
@@ -72,7 +70,6 @@ class Recorder {
   TimeLimit time_limit_;
   double direction_;
   RunResult result_;
-  std::optional<BodyOverlaps> overlaps_;  // where bodies could
   long next_sample_ = 0;
   std::optional<double> last_sample_;  // s, of all bodies
 };

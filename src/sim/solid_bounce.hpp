@@ -8,9 +8,6 @@
 
 namespace trajet {
 
-/// Why a body that is no point or ball cannot answer to an impact; empty if it can.
-std::string why_it_cannot_bounce(const World::Body& body);
-
 /// The frictionless impact of a solid on an obstacle: changes velocity and angular velocity in `instant.q`, and the
 /// derivative of the new state by the one before; tells `impact` what came of it.
 ///

@@ -95,6 +95,26 @@ ContactResult SolidSearch::first_contact(int body_index, int obstacle_index, con
   return result;
 }
 
+ContactResult SolidSearch::first_contact_of_bodies(int first, const Segment<>& motion, int second,
+                                                   const Segment<>& other_motion, double from, double to,
+                                                   const ContactMemory& memory) {
+  const World::Body& body = world_.bodies[static_cast<std::size_t>(first)];
+  const World::Body& other = world_.bodies[static_cast<std::size_t>(second)];
+  const double direction = to < from ? -1.0 : 1.0;
+  ContactResult result{.memory = memory};
+  while (direction * (to - from) > 0.0) {
+    const FramePath path = body_path(body, motion, from), other_path = body_path(other, other_motion, from);
+    const double end = direction * std::min({direction * to, direction * path.t1(), direction * other_path.t1()});
+    if (!(direction * (end - from) > 0.0))
+      return {.status = ContactStatus::unresolved, .time = from, .memory = result.memory};
+    result = search({pieces_of_body(first), pieces_of_body(second), path, other_path, bounding_radius(body.solid)},
+                    from, end, result.memory);
+    if (result.status != ContactStatus::separated) return result;
+    from = end;
+  }
+  return result;
+}
+
 ContactResult SolidSearch::search(const Stretch& stretch, double from, double to, const ContactMemory& memory) {
   const std::vector<int> candidates = near(stretch, from, to);
   const double middle = from + 0.5 * (to - from);

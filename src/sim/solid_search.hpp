@@ -14,7 +14,8 @@
 
 namespace trajet {
 
-/// Finds the first contacts of bodies that are no points or balls with obstacles: piece by piece of what is not convex.
+/// Finds the first contacts of bodies with obstacles and with each other where they are no points or balls: piece by
+/// piece of what is not convex.
 class SolidSearch {
  public:
   /// The world must live as long as this.
@@ -23,6 +24,10 @@ class SolidSearch {
   /// The first contact between two times on the body's Segment; `driven`: the obstacle, where it moves.
   ContactResult first_contact(int body, int obstacle, const Segment<>& motion, DrivenObstacle* driven, double from,
                               double to, const ContactMemory& memory);
+
+  /// The first contact of two bodies between two times on their Segments.
+  ContactResult first_contact_of_bodies(int first, const Segment<>& motion, int second, const Segment<>& other,
+                                        double from, double to, const ContactMemory& memory);
 
  private:
   /// A thing in convex pieces.

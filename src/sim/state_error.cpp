@@ -88,9 +88,25 @@ void StateError::settle() {
   open_.clear();
 }
 
-void StateError::jump(const Eigen::MatrixXd& derivative) {
+void StateError::jump(const Eigen::MatrixXd& derivative, const Eigen::MatrixXd& further) {
   settle();
   generators_ = derivative * generators_;
+  if (further.cols() == 0) return;
+  const Eigen::Index before = generators_.cols();
+  generators_.conservativeResize(Eigen::NoChange, before + further.cols());
+  generators_.rightCols(further.cols()) = further;
+  if (generators_.cols() > 4 * generators_.rows()) reduce();
+}
+
+Eigen::MatrixXd StateError::columns(System& law, const Segment<>& segment, double t) {
+  settle();
+  const Step part = step_until(law, segment, t);
+  const Eigen::Index n = generators_.rows(), before = generators_.cols();
+  Eigen::MatrixXd all(n, before + n);
+  all.leftCols(before) = generators_;
+  if (before > 0 && part.duration != 0.0) all.leftCols(before) = transition(part) * generators_;
+  all.rightCols(n) = part.error.asDiagonal();
+  return all;
 }
 
 void StateError::add(const Eigen::VectorXd& error) {

@@ -24,12 +24,15 @@ class StateError {
 
   /// The motion under the law goes on behind time t on the Segment.
   void pass(System& law, const Segment<>& segment, double t);
-  /// The state has changed; `derivative`: of the state behind by the state before.
-  void jump(const Eigen::MatrixXd& derivative);
+  /// The state has changed; `derivative`: of the state behind by the state before. `further`: errors that others have
+  /// brought, each a column.
+  void jump(const Eigen::MatrixXd& derivative, const Eigen::MatrixXd& further = {});
   /// All steps are worked off: their laws may go.
   void settle();
 
-  /// At time t on the Segment, behind what was passed, in each component's unit.
+  /// G at time t on the Segment, behind what was passed, in each component's unit.  // (dimension x any number)
+  Eigen::MatrixXd columns(System& law, const Segment<>& segment, double t);
+  /// What each component may be off by then.
   Eigen::VectorXd bound(System& law, const Segment<>& segment, double t);
   /// The same along one direction of the state.
   double bound_along(const Eigen::VectorXd& direction, System& law, const Segment<>& segment, double t);

@@ -14,6 +14,10 @@ const World::Obstacle& obstacle_of(const World& world, const Pair& pair) {
   return world.obstacles[static_cast<std::size_t>(pair.id.obstacle)];
 }
 
+const Surface& surface_of(const World& world, const Pair& pair) {
+  return world.surface(pair.id.body, pair.id.obstacle);
+}
+
 const Pair& pair_of(const Encounters& encounters, PairId id) {
   return *ranges::find(encounters.pairs(id.body), id, &Pair::id);
 }
@@ -22,7 +26,7 @@ const Pair& pair_of(const Encounters& encounters, PairId id) {
 
 PairId first_to_handle(const World& world, const Encounters& encounters, const Pair& contact) {
   const auto bounces = [&](const Pair& pair) {
-    return obstacle_of(world, pair).on_hit == OnHit::bounce && is_hit(pair.contact);
+    return surface_of(world, pair).on_hit == OnHit::bounce && is_hit(pair.contact);
   };
   if (bounces(contact)) return contact.id;
   for (const PairId id : encounters.met_at_once(contact))
@@ -33,7 +37,7 @@ PairId first_to_handle(const World& world, const Encounters& encounters, const P
 void warn_of_hidden_ties(const World& world, const Encounters& encounters, const Pair& handled, const Impact& impact,
                          const Course& course, Recorder& recorder) {
   for (const int body : course.group().bodies) {
-    if (obstacle_of(world, handled).on_hit == OnHit::bounce && body != handled.id.body) continue;
+    if (surface_of(world, handled).on_hit == OnHit::bounce && body != handled.id.body) continue;
     for (const Pair& other : encounters.pairs(body)) {
       if (other.id == handled.id || other.contact.status != ContactStatus::hit) continue;
       if (std::abs(other.contact.time - impact.elapsed) <= impact.time_error_bound + other.contact.time_error_bound)
@@ -56,7 +60,7 @@ bool settle_other_contacts(const World& world, Encounters& encounters, const Pai
     memory.side = pair.contact.side_before;
     memory.contact_time = impact.elapsed;
     instant.memories.emplace_back(id, memory);
-    const OnHit on_hit = obstacle_of(world, pair).on_hit;
+    const OnHit on_hit = surface_of(world, pair).on_hit;
     if (on_hit == OnHit::bounce && is_hit(pair.contact)) continue;
     Impact passed = describe(world, pair, instant.before());
     passed.elapsed = impact.elapsed;

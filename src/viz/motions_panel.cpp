@@ -139,7 +139,7 @@ double MotionsPanel::closed_form_end(double until) const {
       const Vector3 position = body.slice().position(q);
       for (const World::Obstacle& obstacle : world_.obstacles)
         if (const auto* plane = std::get_if<Plane>(&obstacle.shape);
-            plane != nullptr && obstacle.on_hit != OnHit::pass &&
+            plane != nullptr && obstacle.surface.on_hit != OnHit::pass &&
             plane->normal.dot(position - plane->point) < (is_round(body.solid) ? bounding_radius(body.solid) : 0.0))
           return true;
     }

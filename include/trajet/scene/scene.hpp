@@ -134,6 +134,14 @@ struct PartDefinition {
   SourceLocation where{};
 };
 
+/// What a body lets itself be met by. A pair meets if both sides agree; obstacles agree to all.
+struct CollidesWith {
+  enum class Kind { all, obstacles, none, listed };
+  Kind kind = Kind::all;
+  std::vector<std::string> names{};  ///< of bodies and obstacles; of `listed`
+  SourceLocation where{};
+};
+
 /// A moving body. Its name is usable in every law as NAME.r, NAME.vx, ….
 struct BodyDefinition {
   std::string name;
@@ -162,7 +170,11 @@ struct BodyDefinition {
   std::optional<Expression> principal_inertia{};  ///< about the centre of mass along the body's axes, kg m^2; or:
   std::vector<Expression> inertia{};              ///< three rows, body's frame
   std::vector<NamedExpression> points{};          ///< of the body, in its frame, m, to be reported
-  std::optional<RgbColor> color{};                ///< in pictures; none: one that tells bodies apart
+  /// Of its surface, for impacts with other bodies, 0..1; may be a formula of `u`, the speed of approach along the
+  /// normal, m/s; none: 1
+  std::optional<Expression> restitution{};
+  CollidesWith collides_with{};
+  std::optional<RgbColor> color{};  ///< in pictures; none: one that tells bodies apart
   SourceLocation where{};
 };
 
@@ -201,6 +213,14 @@ struct ObstacleDefinition {
   SourceLocation where{};
 };
 
+/// What becomes of two things where they touch, where that is not what follows from each of them.
+struct PairDefinition {
+  std::string first, second;                ///< a body and another body or an obstacle
+  std::optional<OnHit> on_hit{};            ///< none: of bodies bounce, else the obstacle's
+  std::optional<Expression> restitution{};  ///< as the obstacle's; none: of bodies the mean, else the obstacle's
+  SourceLocation where{};
+};
+
 /// A further ordinary differential equation d(name)/dt = rate.
 struct StateDefinition {
   std::string name;
@@ -234,6 +254,7 @@ struct Scene {
   MethodOptions method{};
   std::vector<BodyDefinition> bodies{};
   std::vector<ObstacleDefinition> obstacles{};
+  std::vector<PairDefinition> pairs{};
   std::vector<StateDefinition> states{};
   std::vector<EventDefinition> events{};
   /// Closed forms over t and the parameters, by name: `ball.r`, `ball.v`, `ball.w`, `ball.w_body`, or an extra state.

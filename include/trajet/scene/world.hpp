@@ -4,9 +4,9 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
-#include "trajet/collide/respond/restitution_law.hpp"
 #include "trajet/geom/shapes.hpp"
 #include "trajet/geom/solid.hpp"
 #include "trajet/law/program.hpp"
@@ -16,6 +16,7 @@
 #include "trajet/scene/body_slice.hpp"
 #include "trajet/scene/named_value.hpp"
 #include "trajet/scene/scene.hpp"
+#include "trajet/scene/surface.hpp"
 
 namespace trajet {
 
@@ -56,6 +57,8 @@ struct World {
     std::optional<Rotation> rotation;     ///< none: it does not turn
     std::optional<Program> mass;          ///< kg, one output
     std::optional<Matrix3> inertia{};     ///< of a solid that impacts can turn: about its centre, its frame, kg m^2
+    Surface surface{.on_hit = OnHit::bounce};
+    Company company{};
 
     BodySlice slice() const { return {offset, rotation ? std::optional(rotation->layout) : std::nullopt}; }
   };
@@ -73,9 +76,7 @@ struct World {
     Vector3 p_WB;                          ///< of the solid's frame at the start, m
     Quaternion q_WB{1.0, 0.0, 0.0, 0.0};   ///< unit
     Shape shape;                           ///< the solid where it stands at the start
-    OnHit on_hit = OnHit::stop;
-    RestitutionLaw restitution{};
-    SourceLocation restitution_where{};
+    Surface surface{};
   };
 
   struct ExtraState {
@@ -151,6 +152,15 @@ struct World {
     std::map<int, Sphere> spheres;                 ///< of the obstacles that are spheres
   };
 
+  /// Whether a body and an obstacle meet, and what becomes of them then.
+  bool meets_obstacle(int body, int obstacle) const;
+  const Surface& surface(int body, int obstacle) const;
+  /// Whether two bodies meet: both let it, and at least one has extent.
+  bool bodies_meet(int first, int second) const;
+  /// What becomes of two bodies that meet: they bounce, with the geometric mean of their restitutions, where the scene
+  /// says nothing else.
+  Surface surface_of_bodies(int first, int second) const;
+
   /// +1, or -1 for a run backward in time.
   double direction() const { return duration < 0.0 ? -1.0 : 1.0; }
 
@@ -174,6 +184,8 @@ struct World {
   std::vector<std::string> warnings;  ///< sentences on what the scene says in vain
   std::vector<Body> bodies;
   std::vector<Obstacle> obstacles;
+  /// What becomes of pairs of which the scene says it: a body and an obstacle, and two bodies, the lower index first.
+  std::map<std::pair<int, int>, Surface> obstacle_pairs, body_pairs;
   std::vector<ExtraState> states;
   std::vector<Event> events;
   std::vector<Group> groups;

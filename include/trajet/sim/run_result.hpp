@@ -25,23 +25,32 @@ enum class ImpactKind {
   leave,  ///< contact ends
 };
 
-/// A body met an obstacle. World frame, SI units.
+/// The motion of the other body of an impact of two. World frame, SI units.
+struct ImpactPartner {
+  Vector3 velocity_before;
+  Vector3 velocity_after;
+  Vector3 angular_velocity_before = Vector3::Zero();
+  Vector3 angular_velocity_after = Vector3::Zero();
+};
+
+/// A body met an obstacle or another body. World frame, SI units.
 struct Impact {
   double time = 0.0;     ///< s, of the scene's clock
   double elapsed = 0.0;  ///< s since the start: with all digits where the clock has no room for them
   std::string body;
-  std::string with;
+  std::string with;  ///< an obstacle or a body
   ImpactKind kind = ImpactKind::hit;
-  Vector3 point;     ///< of contact, on the obstacle
-  Vector3 normal;    ///< unit, of the obstacle at the point, towards the body's side before the impact
+  Vector3 point;     ///< of contact, on what was met
+  Vector3 normal;    ///< unit, of what was met at the point, towards the body's side before the impact
   Vector3 position;  ///< of the body's centre of mass
   Vector3 velocity_before;
   Vector3 velocity_after;
   Vector3 angular_velocity_before = Vector3::Zero();
   Vector3 angular_velocity_after = Vector3::Zero();
-  Vector3 impulse;                           ///< per mass where the body has none: m/s, else N s
+  Vector3 impulse;                           ///< on the body; per mass where it has none: m/s, else N s
   double time_error_bound = 0.0;             ///< s
   std::optional<TouchedFeatures> touched{};  ///< of solids that are no points or balls; `point` is in the middle
+  std::optional<ImpactPartner> partner{};    ///< where a body was met
 };
 
 /// A `when` crossed zero, or a law that switches at a zero of the state `sticks` there or `slips` off it.

@@ -1,0 +1,47 @@
+#include <array>
+
+#include "scene_solids.hpp"
+
+namespace trajet::detail {
+
+namespace {
+
+constexpr std::array<std::string_view, 3> kOnHit{"stop", "bounce", "pass"};
+constexpr std::array<std::string_view, 1> kPlannedOnHit{"stick"};
+
+}  // namespace
+
+OnHit read_on_hit(const TableReader& table) {
+  return std::array{OnHit::stop, OnHit::bounce, OnHit::pass}[table.choice("on_hit", kOnHit, 0, kPlannedOnHit)];
+}
+
+CollidesWith read_collides_with(const TableReader& table) {
+  using Kind = CollidesWith::Kind;
+  constexpr std::array<std::string_view, 3> kKinds{"all", "obstacles", "none"};
+  CollidesWith result;
+  if (!table.has("collides_with")) return result;
+  result.where = table.where("collides_with");
+  if (table.is_array("collides_with")) {
+    result.kind = Kind::listed;
+    result.names = table.texts("collides_with");
+  } else {
+    result.kind = std::array{Kind::all, Kind::obstacles, Kind::none}[table.choice("collides_with", kKinds, 0)];
+  }
+  return result;
+}
+
+PairDefinition read_pair(const TableReader& table) {
+  constexpr std::array<std::string_view, 3> kKeys{"of", "on_hit", "restitution"};
+  constexpr std::array<std::string_view, 4> kPlanned{"friction", "tangential_restitution", "rolling_friction",
+                                                     "spinning_friction"};
+  table.check_keys(kKeys, kPlanned);
+  const std::vector<std::string> names = table.texts("of");
+  if (names.size() != 2) table.fail("of", "'of': two names expected, got " + std::to_string(names.size()));
+  PairDefinition pair{.first = names[0], .second = names[1]};
+  pair.where = table.where("of");
+  if (table.has("on_hit")) pair.on_hit = read_on_hit(table);
+  pair.restitution = table.optional_scalar("restitution", kDimensionless);
+  return pair;
+}
+
+}  // namespace trajet::detail

@@ -1,0 +1,307 @@
+#include "contact_handler.hpp"
+
+#include <cmath>
+
+#include "extended_bounce.hpp"
+#include "impact_record.hpp"
+#include "impact_sides.hpp"
+#include "jump_derivative.hpp"
+#include "plastic_bounce.hpp"
+#include "solid_bounce.hpp"
+#include "ties.hpp"
+#include "trajet/collide/respond/restitution.hpp"
+#include "trajet/collide/sustain/rest.hpp"
+#include "trajet/geom/flat_faces.hpp"
+#include "trajet/text/shortest_text.hpp"
+
+namespace trajet {
+namespace {
+
+/// So many impacts of one body at one instant are a body that cannot get away, not a motion.
+constexpr int kMaxImpactsAtOnce = 1000;
+
+std::string describe_restitution(const World::Obstacle& obstacle, const Surface& surface, double restitution,
+                                 double speed) {
+  return describe_impossible_restitution("obstacle '" + obstacle.name + "'", surface, restitution, speed);
+}
+
+}  // namespace
+
+ContactHandler::ContactHandler(const RunControl& control)
+    : run_(control), last_impacts_(control.world().bodies.size()) {}
+
+void ContactHandler::handle(int index, const Pair& met) {
+  Course& moving = run_.course(index);
+  // what goes on from the face on which the body slides is nothing to hit, whatever else it meets at this instant
+  if (goes_on_sliding(index, met)) return;
+  const Pair& pair = run_.encounters().pair(first_to_handle(run_.world(), run_.encounters(), met));
+  const World::Body& body = body_of(pair);
+  const World::Obstacle& obstacle = obstacle_of(pair);
+  const double time = met.contact.time;
+  const std::string names = "'" + body.name + "' with '" + obstacle.name + "'";
+  if (pair.contact.status == ContactStatus::overlapping_at_start) {
+    if (surface_of(pair).on_hit == OnHit::pass) {
+      // it starts inside: the first that happens is that it comes out
+      run_.encounters().pass(pair.id, moving);
+      return run_.pass_on(index);
+    }
+    if (time == 0.0)
+      throw InputError(body.where, "body '" + body.name + "' starts inside obstacle '" + obstacle.name + "'");
+    return run_.fail(time, "body '" + body.name + "' is inside obstacle '" + obstacle.name + "'");
+  }
+  if (pair.contact.status == ContactStatus::unresolved)
+    return run_.fail(time, "contact of " + names + " is unresolved");
+  if (last_impacts_[static_cast<std::size_t>(pair.id.body)].count_at(time) > kMaxImpactsAtOnce)
+    return run_.fail(time,
+                     "body '" + body.name + "' has impact after impact with '" + obstacle.name + "' at one instant");
+
+  if (const std::string doubt = describe_doubt(moving, pair); !doubt.empty())
+    return run_.fail(time, "contact of " + names + " is unresolved: " + doubt);
+  for (const int each : moving.group().bodies) run_.encounters().bound_times(each, moving);
+  Impact impact = describe(run_.world(), pair, moving.state(time));
+  impact.elapsed = time;
+  if (!is_round(body.solid) && is_hit(pair.contact) && surface_of(pair).on_hit != OnHit::stop)
+    return bounce_off(index, pair, impact);
+  if (is_hit(pair.contact) && surface_of(pair).on_hit == OnHit::bounce) {
+    if (goes_on_sliding(index, pair)) return;
+    if (goes_on_from_contact(index, pair, impact)) return run_.enqueue(index);
+    return bounce(index, pair, impact);
+  }
+  run_.recorder().sample(time, pair.id.body, SamplePhase::before);
+  if (is_hit(pair.contact) && surface_of(pair).on_hit == OnHit::stop) {
+    run_.recorder().sample(time);
+    run_.recorder().impact(impact);
+    warn_of_hidden_ties(run_.world(), run_.encounters(), pair, impact, moving, run_.recorder());
+    return run_.stop();
+  }
+  run_.recorder().sample(time, pair.id.body, SamplePhase::after);
+  run_.recorder().impact(impact);
+  run_.encounters().pass(pair.id, moving);
+  run_.pass_on(index);
+}
+
+bool ContactHandler::goes_on_sliding(int index, const Pair& pair) {
+  Course& moving = run_.course(index);
+  const bool is_met = pair.contact.status == ContactStatus::hit || pair.contact.status == ContactStatus::graze;
+  if (!is_met || surface_of(pair).on_hit != OnHit::bounce) return false;
+  if (!run_.lasting_contacts().slides_onto(pair.id, moving, moving.state(pair.contact.time))) return false;
+  const int body = pair.id.body;
+  run_.encounters().pass(pair.id, moving);
+  run_.encounters().search(body, moving, moving.next().time);
+  run_.enqueue(index);
+  return true;
+}
+
+std::string ContactHandler::describe_doubt(Course& moving, const Pair& pair) {
+  const int offset = body_of(pair).offset;
+  const double time = pair.contact.time;
+  if (!is_hit(pair.contact) || !is_round(body_of(pair).solid)) return {};
+  const Eigen::VectorXd q = moving.state(time);
+  const RelativeMotion motion = run_.encounters().relative_motion(pair.id, time, q, moving.rate(time, q));
+  const double speed = -pair.contact.normal.dot(motion.velocity);
+  const double pull = -pair.contact.normal.dot(motion.acceleration);
+  if (speed <= 0.0 || is_lying(speed, std::max(0.0, pull), pair.contact.memory.tolerance)) return {};
+  Eigen::VectorXd along = Eigen::VectorXd::Zero(q.size());
+  along.segment<3>(offset + 3) = pair.contact.normal;
+  const double error = moving.velocity_error(along, time);
+  if (!(error >= speed)) return {};
+  return "they approach with " + shortest_text(speed) + " m/s, and the velocity may be off by " + shortest_text(error) +
+         " m/s: choose a finer tolerance or step";
+}
+
+bool ContactHandler::goes_on_from_contact(int index, const Pair& pair, const Impact& impact) {
+  Course& moving = run_.course(index);
+  const int offset = body_of(pair).offset;
+  const Eigen::VectorXd q = moving.state(impact.elapsed);
+  const RelativeMotion motion =
+      run_.encounters().relative_motion(pair.id, impact.elapsed, q, moving.rate(impact.elapsed, q));
+  const double speed = impact.normal.dot(motion.velocity);
+  const double pull = -impact.normal.dot(motion.acceleration);
+  const bool has_left = pull < 0.0 && pair.memory.contact_time == impact.elapsed;
+  if (speed <= 0.0 && !has_left) return false;
+  double height = 0.0;
+  if (speed > 0.0) {
+    // of the flight: u^2 / (2 g), or where nothing pulls back, that on the Segment
+    const double on_segment = speed * std::abs(moving.segment().t1() - impact.elapsed);
+    height = pull > 0.0 ? speed * speed / (2.0 * pull) : on_segment;
+  } else {
+    // What the law carries away from the contact that it has just left has not hit: the Segment goes astray.
+    constexpr double kRoundings = 4.0;
+    const double astray = impact.normal.cwiseAbs().dot(moving.segment().error_bound().segment<3>(offset)) +
+                          kRoundings * kUnitRoundoff * impact.position.norm();
+    if (speed * speed > -2.0 * pull * astray) return false;
+    height = 2.0 * astray;
+  }
+  if (!run_.encounters().stay_in_contact(pair.id, moving, height)) return false;
+  run_.encounters().search(pair.id.body, moving, moving.next().time);
+  return true;
+}
+
+void ContactHandler::bounce(int index, Pair pair, Impact impact) {
+  Course& moving = run_.course(index);
+  const World::Body& body = body_of(pair);
+  const double t = impact.elapsed;
+  run_.recorder().sample(t, pair.id.body, SamplePhase::before);
+
+  Instant instant(moving, t);
+  auto velocity = instant.q.segment<3>(body.offset + 3);
+  // the velocity of the centre is dr/dt, which a position_rate may set apart from v
+  const RelativeMotion motion = run_.encounters().relative_motion(pair.id, t, instant.before(), instant.rate());
+  const Vector3& approach = motion.velocity;
+  const double speed_before = std::max(0.0, -approach.dot(impact.normal));
+  const double restitution = surface_of(pair).restitution.at(speed_before);
+  if (!(restitution >= 0.0 && restitution <= 1.0))
+    return run_.fail(t, describe_restitution(obstacle_of(pair), surface_of(pair), restitution, speed_before));
+  const double mass = mass_of(body, t, instant.q);
+  const std::vector<Impact> group = bounce_plastic(run_.world(), run_.encounters(), pair, impact, mass, instant);
+  if (group.empty()) {
+    velocity += rebound(approach, impact.normal, restitution).impulse_per_mass;
+    const std::optional<FrameMotion> surface = run_.encounters().frame(pair.id.obstacle, t);
+    if (run_.world().extended && !surface && approach == Vector3(impact.velocity_before))
+      bounce_extended(run_.world(), pair, instant);
+    instant.derivative = derivative_of_bounce(run_.world(), pair, surface, instant, moving.rate(t, instant.before()));
+    impact.velocity_after = velocity;
+    impact.impulse = mass * (impact.velocity_after - impact.velocity_before);
+  }
+  // else it lies there, or its flight is so low that the Segment does not show it
+  const double pull = -impact.normal.dot(motion.acceleration);
+  const double speed = -approach.dot(impact.normal);
+  const double no_time = kUnitRoundoff * run_.world().duration;
+  const double lowest_fall = std::max(pair.contact.memory.tolerance, std::abs(pull) * no_time * no_time);
+  const bool is_hit = speed > 0.0 && !is_lying(speed, std::max(0.0, pull), lowest_fall);
+  if (!group.empty()) {
+    run_.recorder().impacts(group);
+  } else if (is_hit) {
+    run_.recorder().impact(impact);
+    warn_of_hidden_ties(run_.world(), run_.encounters(), pair, impact, moving, run_.recorder());
+  }
+
+  run_.lasting_contacts().release_by_speed(instant, pair.id.body);
+  if (!rest(instant, pair, impact, restitution, !is_hit)) return;
+  const bool stops = settle_other_contacts(run_.world(), run_.encounters(), pair, impact, instant, run_.recorder());
+  ContactMemory memory = rebounded(pair.contact.memory);
+  memory.contact_time = t;
+  instant.memories.insert(instant.memories.begin(), {pair.id, memory});
+  run_.go_on(index, instant);
+  run_.recorder().sample(t, pair.id.body, SamplePhase::after);
+  run_.lasting_contacts().record_until(t);
+  if (stops) return run_.stop();
+  run_.advance(index);
+}
+
+void ContactHandler::bounce_off(int index, Pair pair, Impact impact) {
+  Course& moving = run_.course(index);
+  const World::Body& body = body_of(pair);
+  const World::Obstacle& obstacle = obstacle_of(pair);
+  const double t = impact.elapsed;
+  const std::optional<FrameMotion> surface = run_.encounters().frame(pair.id.obstacle, t);
+  const Eigen::VectorXd q = moving.state(t);
+  const NormalMotion before = normal_motion(run_.world(), pair, surface, q, moving.rate(t, q));
+  if (before.speed > 0.0 && pair.memory.contact_time == t) {
+    // what moves away from the contact that it has just left has not hit
+    const double height = before.speed * std::abs(moving.segment().t1() - t);
+    if (run_.encounters().stay_in_contact(pair.id, moving, height)) {
+      run_.encounters().search(pair.id.body, moving, moving.next().time);
+      return run_.enqueue(index);
+    }
+  }
+  run_.recorder().sample(t, pair.id.body, SamplePhase::before);
+  const auto end = [&](const std::string& reason) {
+    run_.recorder().impact(impact);
+    run_.fail(t, reason);
+  };
+  if (surface_of(pair).on_hit == OnHit::pass)
+    return end("body '" + body.name + "' reaches obstacle '" + obstacle.name +
+               "', which lets it pass: how long a solid is within another is not computed yet");
+  if (const std::string reason = why_it_cannot_bounce(body); !reason.empty()) return end(reason);
+  Instant instant(moving, t);
+  const double speed = std::max(0.0, -before.speed);
+  const double restitution = surface_of(pair).restitution.at(speed);
+  if (!(restitution >= 0.0 && restitution <= 1.0))
+    return run_.fail(t, describe_restitution(obstacle, surface_of(pair), restitution, speed));
+  bounce_solid(run_.world(), pair, surface, restitution, mass_of(body, t, instant.q), instant, impact);
+  run_.recorder().impact(impact);
+  warn_of_hidden_ties(run_.world(), run_.encounters(), pair, impact, moving, run_.recorder());
+  const NormalMotion after = normal_motion(run_.world(), pair, surface, instant.q, instant.rate());
+  if (after.acceleration <= 0.0 &&
+      is_below_flight(std::max(0.0, after.speed), -after.acceleration, pair.contact.memory.tolerance))
+    return run_.fail(t, "body '" + body.name + "' comes to rest on obstacle '" + obstacle.name +
+                            "': contact that lasts is not computed yet for solids that are no points or balls");
+  instant.memories.insert(instant.memories.begin(), {pair.id, rebounded(pair.contact.memory)});
+  run_.go_on(index, instant);
+  run_.recorder().sample(t, pair.id.body, SamplePhase::after);
+  run_.advance(index);
+}
+
+bool ContactHandler::rest(Instant& instant, const Pair& pair, const Impact& impact, double restitution,
+                          bool is_hidden) {
+  const World::Body& body = body_of(pair);
+  const World::Obstacle& obstacle = obstacle_of(pair);
+  const double t = instant.time();
+  const RelativeMotion motion = run_.encounters().relative_motion(pair.id, t, instant.q, instant.rate());
+  const double speed = std::max(0.0, impact.normal.dot(motion.velocity));
+  const double pull = -impact.normal.dot(motion.acceleration);
+  const double tolerance = pair.contact.memory.tolerance;
+  const bool is_low =
+      restitution < 1.0 ? is_hidden || is_below_flight(speed, pull, tolerance) : is_lying(speed, pull, tolerance);
+  if (pull <= 0.0 || !is_low) return true;
+  if (obstacle.drive) {
+    run_.fail(t, "body '" + body.name + "' comes to rest on obstacle '" + obstacle.name +
+                     "', which moves: trajet cannot follow it there yet");
+    return false;
+  }
+  if (!is_flat_at(obstacle.shape, impact.point, impact.normal)) {
+    run_.fail(t, "body '" + body.name + "' comes to rest on the curved or sharp part of obstacle '" + obstacle.name +
+                     "', where trajet cannot follow it");
+    return false;
+  }
+  PairId on = pair.id;
+  // a velocity so much smaller than it was is what rounding leaves of one that was stopped
+  constexpr double kStopped = 1e-12;
+  Vector3 along = instant.q.segment<3>(body.offset + 3);
+  along -= along.dot(impact.normal) * impact.normal;
+  const bool is_stopped = along.norm() <= kStopped * impact.velocity_before.norm();
+  if (bounding_radius(body.solid) > 0.0 && !is_stopped &&
+      moves_off(face_outline(obstacle.shape, impact.point, impact.normal), impact.position, along)) {
+    const RestingContact here{pair.id.body, pair.id.obstacle, body.offset, impact.normal, impact.point, impact.normal};
+    const std::optional<PairId> next = run_.lasting_contacts().continuation(here, instant.q);
+    if (!next) {
+      run_.fail(t, "body '" + body.name + "' slides over an edge of obstacle '" + obstacle.name +
+                       "' too slowly to leave it, where trajet cannot follow it");
+      return false;
+    }
+    on = *next;
+  }
+  run_.lasting_contacts().begin(instant, on, impact, t + bouncing_time(speed, pull, restitution));
+  run_.lasting_contacts().release_by_force(instant, pair.id.body);
+  return true;
+}
+
+double ContactHandler::end_of_pull(const Course& moving, const Crossing& crossing) const {
+  const double direction = run_.world().direction();
+  const double known = crossing.time + direction * 2.0 * crossing.error_bound;
+  bool is_next = direction * (moving.segment().t1() - known) > 0.0;
+  for (const int body : moving.group().bodies) {
+    const Pair* pair = run_.encounters().first(body);
+    const Meeting* meeting = run_.meetings().first(body);
+    is_next = is_next && (pair == nullptr || direction * (pair->contact.time - known) > 0.0) &&
+              (meeting == nullptr || direction * (meeting->contact.time - known) > 0.0);
+  }
+  return is_next ? known : crossing.time;
+}
+
+void ContactHandler::handle_end(int index) {
+  Course& moving = run_.course(index);
+  const Crossing crossing = moving.next();
+  const double time = crossing.kind == Crossing::Kind::pull ? end_of_pull(moving, crossing) : crossing.time;
+  Instant instant(moving, time);
+  const int body = instant.contacts[static_cast<std::size_t>(crossing.index)].body;
+  run_.recorder().sample(time, body, SamplePhase::before);
+  run_.recorder().sample(time, body, SamplePhase::after);
+  run_.lasting_contacts().leave(instant, crossing.index, crossing.kind == Crossing::Kind::past_edge,
+                                crossing.error_bound + std::abs(time - crossing.time));
+  run_.go_on(index, instant);
+  run_.advance(index);
+}
+
+}  // namespace trajet

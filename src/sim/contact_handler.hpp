@@ -1,0 +1,48 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "run_control.hpp"
+
+namespace trajet {
+
+/// What becomes of a run at its contacts with obstacles: impacts, crossings, and the beginnings and ends of contacts
+/// that last.
+class ContactHandler {
+ public:
+  explicit ContactHandler(const RunControl& control);
+
+  void handle(int course, const Pair& met);
+  /// A lasting contact of the course would pull from now on, or has come to its edge.
+  void handle_end(int course);
+
+ private:
+  /// A time behind a contact's last at which the force surely points away from it: what has left then is not found in
+  /// it again.
+  double end_of_pull(const Course& moving, const Crossing& crossing) const;
+  /// Whether a face on which the body slides goes on on the obstacle that it meets; then the motion does.
+  bool goes_on_sliding(int course, const Pair& met);
+  /// Why it is not certain that a contact is one, as far as the motion is known; else empty.
+  std::string describe_doubt(Course& moving, const Pair& pair);
+  /// Whether a contact is the last one still, from which the body moves away by its law; then the motion goes on.
+  bool goes_on_from_contact(int course, const Pair& pair, const Impact& impact);
+  void bounce(int course, Pair pair, Impact impact);
+  /// The same of a body that is no point or ball.
+  void bounce_off(int course, Pair pair, Impact impact);
+  /// Begins a rest where the body, after its impact, will not fly any more; false if it cannot be followed.
+  bool rest(Instant& instant, const Pair& pair, const Impact& impact, double restitution, bool is_hidden);
+
+  const World::Body& body_of(const Pair& pair) const {
+    return run_.world().bodies[static_cast<std::size_t>(pair.id.body)];
+  }
+  const World::Obstacle& obstacle_of(const Pair& pair) const {
+    return run_.world().obstacles[static_cast<std::size_t>(pair.id.obstacle)];
+  }
+  const Surface& surface_of(const Pair& pair) const { return run_.world().surface(pair.id.body, pair.id.obstacle); }
+
+  const RunControl& run_;
+  std::vector<AtOneInstant> last_impacts_;  // of each body
+};
+
+}  // namespace trajet
