@@ -68,6 +68,10 @@ Json object(const EventRecord& event) {
   return json;
 }
 
+Json object(const UnresolvedContact& contact) {
+  return {{"time", contact.time}, {"body", contact.body}, {"with", contact.with}, {"why", contact.why}};
+}
+
 Json object(const BodyState& state) {
   Json points = Json::object();
   for (const PointState& point : state.points)
@@ -112,6 +116,8 @@ void write_report_json(const RunResult& result, const std::function<void(std::st
   writer.member("parameters", object(result.parameters));
   write_array(writer, "impacts", result.impacts);
   write_array(writer, "events", result.events);
+  writer.member("verdict", result.unresolved.empty() ? "complete" : "unresolved");
+  if (!result.unresolved.empty()) write_array(writer, "unresolved", result.unresolved);
   write_array(writer, "final", result.final.bodies);
   writer.member("states", object(result.final.states));
   writer.member("warnings", result.warnings);

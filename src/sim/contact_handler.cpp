@@ -38,7 +38,6 @@ void ContactHandler::handle(int index, const Pair& met) {
   const World::Body& body = body_of(pair);
   const World::Obstacle& obstacle = obstacle_of(pair);
   const double time = met.contact.time;
-  const std::string names = "'" + body.name + "' with '" + obstacle.name + "'";
   if (pair.contact.status == ContactStatus::overlapping_at_start) {
     if (surface_of(pair).on_hit == OnHit::pass) {
       // it starts inside: the first that happens is that it comes out
@@ -49,16 +48,15 @@ void ContactHandler::handle(int index, const Pair& met) {
       throw InputError(body.where, "body '" + body.name + "' starts inside obstacle '" + obstacle.name + "'");
     return run_.fail(time, "body '" + body.name + "' is inside obstacle '" + obstacle.name + "'");
   }
-  if (pair.contact.status == ContactStatus::unresolved)
-    return run_.fail(time, "contact of " + names + " is unresolved");
+  if (pair.contact.status == ContactStatus::unresolved) return run_.fail_unresolved(time, body.name, obstacle.name, "");
   if (last_impacts_[static_cast<std::size_t>(pair.id.body)].count_at(time) > kMaxImpactsAtOnce)
     return run_.fail(time,
                      "body '" + body.name + "' has impact after impact with '" + obstacle.name + "' at one instant");
 
   if (const std::string doubt = describe_doubt(moving, pair); !doubt.empty())
-    return run_.fail(time, "contact of " + names + " is unresolved: " + doubt);
+    return run_.fail_unresolved(time, body.name, obstacle.name, doubt);
   for (const int each : moving.group().bodies) run_.encounters().bound_times(each, moving);
-  Impact impact = describe(run_.world(), pair, moving.state(time));
+  Impact impact = describe(run_.world(), pair, run_.encounters().frame(pair.id.obstacle, time), moving.state(time));
   impact.elapsed = time;
   if (!is_round(body.solid) && is_hit(pair.contact) && surface_of(pair).on_hit != OnHit::stop)
     return bounce_off(index, pair, impact);

@@ -15,9 +15,7 @@ class DrivenObstacle {
 
   FrameMotion at(double t) { return frame_.at(t); }
   /// Of the frame of its solid, from `from` on towards `until`: see `driven_path`.
-  FramePath path(double from, double until) {
-    return driven_path(frame_, obstacle_.p_WB, obstacle_.q_WB, from, until);
-  }
+  FramePath path(double from, double until) { return driven_path(frame_, obstacle_.p_WB, obstacle_.q_WB, from, until); }
 
   /// The first contact of a ball of that radius between two times on its Segment, where its position begins at
   /// component `offset`: as `first_contact` of collide/detect, whose path is what the obstacle sees of the ball's. In

@@ -1,6 +1,7 @@
 #include "impact_record.hpp"
 
 #include "body_state.hpp"
+#include "trajet/collide/detect/ball_features.hpp"
 
 namespace trajet {
 namespace {
@@ -33,9 +34,18 @@ const std::string& name_of_obstacle(const World& world, int index) {
 
 }  // namespace
 
-Impact describe(const World& world, const Pair& pair, const Eigen::VectorXd& q) {
-  Impact impact = without_impulse(body_at(world, pair.id.body), name_of_obstacle(world, pair.id.obstacle), q);
+Impact describe(const World& world, const Pair& pair, const std::optional<FrameMotion>& surface,
+                const Eigen::VectorXd& q) {
+  const World::Body& body = body_at(world, pair.id.body);
+  Impact impact = without_impulse(body, name_of_obstacle(world, pair.id.obstacle), q);
   put_contact(pair.contact, impact);
+  if (impact.touched) return impact;
+  // shapes stand where they stood at the start
+  const Vector3 point = surface ? surface->to_start(impact.point) : impact.point;
+  const Vector3 normal = surface ? Vector3(surface->R.transpose() * impact.normal) : impact.normal;
+  const Shape& shape = world.obstacles[static_cast<std::size_t>(pair.id.obstacle)].shape;
+  impact.touched = features_of_ball(bounding_radius(body.solid), shape, point, normal);
+  impact.touched->points = {impact.point};
   return impact;
 }
 
@@ -44,6 +54,11 @@ Impact describe(const World& world, const Meeting& meeting, const Eigen::VectorX
   const World::Body& other = body_at(world, meeting.id.second);
   Impact impact = without_impulse(body_at(world, meeting.id.first), other.name, q_first);
   put_contact(meeting.contact, impact);
+  const auto feature_of = [](const World::Body& body) {
+    return bounding_radius(body.solid) > 0.0 ? Feature::surface : Feature::vertex;
+  };
+  if (!impact.touched)
+    impact.touched = {feature_of(body_at(world, meeting.id.first)), feature_of(other), {impact.point}};
   ImpactPartner& partner = impact.partner.emplace();
   partner.velocity_before = partner.velocity_after = other.slice().velocity(q_second);
   partner.angular_velocity_before = partner.angular_velocity_after = angular_velocity(other, q_second);

@@ -52,14 +52,14 @@ void MeetingHandler::handle(int course, const Meeting& met) {
     return run_.fail(time, bodies + " overlap");
   }
   if (found.contact.status == ContactStatus::unresolved)
-    return run_.fail(time, "contact of " + names(found) + " is unresolved");
+    return run_.fail_unresolved(time, body(found.id.first).name, body(found.id.second).name, "");
   for (const int each : {found.id.first, found.id.second})
     if (last_impacts_[static_cast<std::size_t>(each)].count_at(time) > kMaxImpactsAtOnce)
       return run_.fail(time,
                        "body '" + body(each).name + "' has impact after impact at one instant, here " + names(found));
   if (world.direction() < 0.0) return run_.fail(time, names(found) + ": impacts have no meaning backward in time");
   if (const std::string doubt = describe_doubt(found); !doubt.empty())
-    return run_.fail(time, "contact of " + names(found) + " is unresolved: " + doubt);
+    return run_.fail_unresolved(time, body(found.id.first).name, body(found.id.second).name, doubt);
 
   Meeting meeting = found;
   ContactResult& contact = meeting.contact;

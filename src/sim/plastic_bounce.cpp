@@ -20,7 +20,7 @@ std::vector<Impact> bounce_plastic(const World& world, const Encounters& encount
   for (const PairId id : encounters.met_at_once(handled)) {
     const Pair& other = *ranges::find(encounters.pairs(id.body), id, &Pair::id);
     if (!is_plastic(other)) continue;
-    impacts.push_back(describe(world, other, instant.before()));
+    impacts.push_back(describe(world, other, std::nullopt, instant.before()));
     impacts.back().elapsed = impact.elapsed;
   }
   const int offset = world.bodies[static_cast<std::size_t>(handled.id.body)].offset;

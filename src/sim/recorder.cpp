@@ -127,6 +127,10 @@ void Recorder::impacts(std::vector<Impact> group) {
   }
 }
 
+void Recorder::unresolved(double time, const std::string& body, const std::string& with, const std::string& why) {
+  result_.unresolved.push_back({world_.epoch + time, body, with, why});
+}
+
 void Recorder::warn_of_tie(const Impact& impact, const std::string& body, const std::string& with) {
   warn("impacts of '" + impact.body + "' with '" + impact.with + "' and of '" + body + "' with '" + with +
        "' are closer in time than their error bounds: which is first is decided by rounding");

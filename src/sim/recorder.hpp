@@ -42,6 +42,8 @@ class Recorder {
   /// Impacts at one instant that were solved together.
   void impacts(std::vector<Impact> group);
   void event(double time, const std::string& name, int direction, const std::string& law = {});
+  /// Whether the two meet, or when, cannot be decided from that time on.
+  void unresolved(double time, const std::string& body, const std::string& with, const std::string& why);
   /// Impacts of two pairs may each have been first.
   void warn_of_tie(const Impact& impact, const std::string& body, const std::string& with);
   void warn(const std::string& text);

@@ -35,4 +35,10 @@ void RunControl::stop_after(double time, double error_bound) const {
 }
 void RunControl::fail(double time, const std::string& reason) const { loop_.fail(time, reason); }
 
+void RunControl::fail_unresolved(double time, const std::string& body, const std::string& with,
+                                 const std::string& why) const {
+  recorder().unresolved(time, body, with, why.empty() ? "the contact can neither be shown nor excluded" : why);
+  fail(time, "contact of '" + body + "' with '" + with + "' is unresolved" + (why.empty() ? "" : ": " + why));
+}
+
 }  // namespace trajet

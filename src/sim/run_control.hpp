@@ -44,6 +44,8 @@ class RunControl {
   /// Ends it when all that happens at this instant is done.
   void stop_after(double time, double error_bound) const;
   void fail(double time, const std::string& reason) const;
+  /// Ends it where nobody can tell whether, or when, two things meet. `why` may be empty.
+  void fail_unresolved(double time, const std::string& body, const std::string& with, const std::string& why) const;
 
  private:
   RunLoop& loop_;

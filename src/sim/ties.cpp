@@ -62,7 +62,7 @@ bool settle_other_contacts(const World& world, Encounters& encounters, const Pai
     instant.memories.emplace_back(id, memory);
     const OnHit on_hit = surface_of(world, pair).on_hit;
     if (on_hit == OnHit::bounce && is_hit(pair.contact)) continue;
-    Impact passed = describe(world, pair, instant.before());
+    Impact passed = describe(world, pair, encounters.frame(id.obstacle, impact.elapsed), instant.before());
     passed.elapsed = impact.elapsed;
     recorder.impact(passed);
     stops = stops || (on_hit == OnHit::stop && is_hit(pair.contact));

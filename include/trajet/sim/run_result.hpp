@@ -49,7 +49,7 @@ struct Impact {
   Vector3 angular_velocity_after = Vector3::Zero();
   Vector3 impulse;                           ///< on the body; per mass where it has none: m/s, else N s
   double time_error_bound = 0.0;             ///< s
-  std::optional<TouchedFeatures> touched{};  ///< of solids that are no points or balls; `point` is in the middle
+  std::optional<TouchedFeatures> touched{};  ///< of a hit or a graze: what touched; `point` is in the middle
   std::optional<ImpactPartner> partner{};    ///< where a body was met
 };
 
@@ -60,6 +60,14 @@ struct EventRecord {
   std::string event;     ///< its name; `sticks` or `slips`
   int direction = 0;     ///< +1 rising, -1 falling: of what decides the law, where that sticks or slips
   std::string law{};     ///< that sticks or slips: "acceleration of body 'block'"
+};
+
+/// A contact of which it could not be decided whether it happens, or when.
+struct UnresolvedContact {
+  double time = 0.0;  ///< s, of the scene's clock: from where on nothing is known
+  std::string body;
+  std::string with;
+  std::string why;
 };
 
 /// A named point of a body. World frame, SI units.
@@ -114,6 +122,8 @@ struct RunResult {
   std::vector<NamedValue> parameters;
   std::vector<Impact> impacts;
   std::vector<EventRecord> events;
+  /// If empty, no impact is missing between the start and the end.
+  std::vector<UnresolvedContact> unresolved;
   Sample final;
   std::vector<std::string> warnings;
   RunStatistics statistics;
