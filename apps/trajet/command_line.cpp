@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <optional>
+#include <sstream>
 #include <string_view>
 #include <utility>
 
 #include "completion.hpp"
 #include "trajet/error.hpp"
+#include "trajet/io/output_file.hpp"
 #include "trajet/text/decimal_number.hpp"
 #include "trajet/text/did_you_mean.hpp"
 #include "trajet/version.hpp"
@@ -208,7 +210,12 @@ int CommandLine::run(std::vector<std::string> words) {
   } catch (const CLI::ExtrasError&) {
     throw InputError({"trajet"}, unknown_option());
   } catch (const CLI::Success& success) {  // --help, --version
-    return app_.exit(success);
+    std::ostringstream text;
+    const int code = app_.exit(success, text, text);
+    OutputFile out("-");
+    out.write(text.str());
+    out.finish();
+    return code;
   } catch (const CLI::ParseError& error) {
     std::string command;
     for (const CLI::App* each : app_.get_subcommands()) command = each->get_name() + " ";

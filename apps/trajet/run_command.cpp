@@ -12,6 +12,7 @@
 #include "message.hpp"
 #include "output_names.hpp"
 #include "plot_file.hpp"
+#include "run_keeper.hpp"
 #include "run_monitor.hpp"
 #include "scene_source.hpp"
 #include "summary.hpp"
@@ -83,17 +84,20 @@ int run_command(const RunArguments& arguments) {
   std::optional<CsvWriter> csv_writer;
   if (!arguments.json.empty()) json.emplace(arguments.json);
   if (!arguments.csv.empty()) csv_writer.emplace(csv.emplace(arguments.csv));
-  MotionRecord motion;
   if (!arguments.html.empty()) html.emplace(arguments.html);
   if (!arguments.glb.empty()) glb.emplace(arguments.glb);
   if (plot) plot->open();
 
+  const std::string& beside = html ? arguments.html : glb ? arguments.glb : arguments.json;
+  RunKeeper keeper(world, beside, html || glb, plot.has_value());
   const RunResult result = [&] {
     RunMonitor monitor;
-    const bool keeps_motion = html || glb || plot;
-    ObserverList observers({csv_writer ? &*csv_writer : nullptr, keeps_motion ? &motion : nullptr, &monitor});
-    return run(world, &observers);
+    std::vector<RunObserver*> observers = keeper.observers();
+    observers.insert(observers.end(), {csv_writer ? &*csv_writer : nullptr, &monitor});
+    ObserverList list(std::move(observers));
+    return run(world, &list);
   }();
+  const RunRecords& records = keeper.records(result);
 
   bool is_all_written = true;
   const auto write = [&](const char* option, const auto& output) {
@@ -113,14 +117,14 @@ int run_command(const RunArguments& arguments) {
   if (csv) csv->finish();
   if (json)
     write("--json", [&] {
-      write_report_json(result, [&](std::string_view part) { json->write(part); });
+      write_report_json(result, records, [&](std::string_view part) { json->write(part); });
       json->finish();
     });
   if (html)
     write("--html", [&] {
-      const auto report = [&](const auto& write_part) { write_report_json(result, write_part); };
+      const auto report = [&](const auto& write_part) { write_report_json(result, records, write_part); };
       std::size_t size = 0;
-      write_page({{motion, report}}, {.scene_text = text_of(arguments.scene)}, [&](std::string_view part) {
+      write_page({{keeper.motion(), report}}, {.scene_text = text_of(arguments.scene)}, [&](std::string_view part) {
         size += part.size();
         html->write(part);
       });
@@ -129,13 +133,13 @@ int run_command(const RunArguments& arguments) {
     });
   if (glb)
     write("--glb", [&] {
-      write_gltf(motion, result, arguments.fps, [&](std::string_view part) { glb->write(part); });
+      write_gltf(keeper.motion(), result, records, arguments.fps, [&](std::string_view part) { glb->write(part); });
       glb->finish();
     });
-  if (plot) write("--plot", [&] { plot->write(run_figure(result, motion)); });
+  if (plot) write("--plot", [&] { plot->write(run_figure(result, keeper.motion_in_memory())); });
   if (!arguments.quiet && stdout_count == 0) {
     OutputFile out("-");
-    out.write(summary(result, wants_color(stdout), text_width(stdout)));
+    out.write(summary(result, keeper.first_records(), wants_color(stdout), text_width(stdout)));
     out.finish();
   }
   for (const std::string& warning : result.warnings) tell_warning(warning);

@@ -32,33 +32,28 @@ std::string format_time(double time, double elapsed, double bound = 0.0) {
   return fmt::format("{:.{}g}", time, std::min(digits, kMostDigits));
 }
 
-std::string impact_table(const std::vector<Impact>& impacts, int width) {
-  // A ball that bounces to rest has hundreds of impacts: the first tell the story, the reports have them all.
-  constexpr std::size_t kMostRows = 20;
+std::string more_rows(std::size_t count) {
+  if (count <= FirstRecords::kMost) return {};
+  return fmt::format("  … and {} more\n", count - FirstRecords::kMost);
+}
+
+std::string impact_table(const FirstRecords& records, int width) {
   TextTable table{{"time [s]", "body", "with", "kind", "point [m]", "speed before [m/s]", "after"}};
-  for (const Impact& impact : impacts) {
-    if (table.size() > kMostRows) break;
+  for (const Impact& impact : records.impacts())
     table.push_back({format_time(impact.time, impact.elapsed, impact.time_error_bound), impact.body, impact.with,
                      std::string(name(impact.kind)), format(impact.point),
                      fmt::format("{:.6g}", impact.velocity_before.norm()),
                      fmt::format("{:.6g}", impact.velocity_after.norm())});
-  }
-  std::string text = format_table(table, {.width = width});
-  if (impacts.size() > kMostRows) text += fmt::format("  … and {} more\n", impacts.size() - kMostRows);
-  return text;
+  return format_table(table, {.width = width}) + more_rows(records.impact_count());
 }
 
-std::string event_table(const std::vector<EventRecord>& events, int width) {
-  constexpr std::size_t kMostRows = 20;
+std::string event_table(const FirstRecords& records, int width) {
   TextTable table{{"time [s]", "event", "direction"}};
-  for (const EventRecord& event : events) {
-    if (table.size() > kMostRows) break;
+  for (const EventRecord& event : records.events()) {
     const std::string what = event.law.empty() ? event.event : event.event + ": " + event.law;
     table.push_back({format_time(event.time, event.elapsed), what, event.direction < 0 ? "falling" : "rising"});
   }
-  std::string text = format_table(table, {.width = width});
-  if (events.size() > kMostRows) text += fmt::format("  … and {} more\n", events.size() - kMostRows);
-  return text;
+  return format_table(table, {.width = width}) + more_rows(records.event_count());
 }
 
 std::string final_state(const Sample& final, int width) {
@@ -86,16 +81,16 @@ std::string cost(const RunStatistics& statistics) {
 
 }  // namespace
 
-std::string summary(const RunResult& result, bool color, int width) {
+std::string summary(const RunResult& result, const FirstRecords& records, bool color, int width) {
   const bool is_good = result.status == RunStatus::finished || result.status == RunStatus::stopped;
   const Style style = is_good ? Style::green : result.status == RunStatus::failed ? Style::red : Style::yellow;
   std::string text;
   if (!result.title.empty()) text += styled(result.title, Style::bold, color) + "\n";
   text += fmt::format("{} at t = {} s (method {})\n", styled(name(result.status), style, color),
                       format_time(result.end_time, result.elapsed), result.method);
-  if (!result.impacts.empty()) text += "\n" + impact_table(result.impacts, width);
-  if (!result.events.empty()) text += "\n" + event_table(result.events, width);
-  if (result.impacts.empty() || !result.final.states.empty()) text += "\n" + final_state(result.final, width);
+  if (records.impact_count() > 0) text += "\n" + impact_table(records, width);
+  if (records.event_count() > 0) text += "\n" + event_table(records, width);
+  if (records.impact_count() == 0 || !result.final.states.empty()) text += "\n" + final_state(result.final, width);
   return text + "\n" + cost(result.statistics);
 }
 

@@ -62,6 +62,19 @@ void refuse_decimal_comma(std::string_view text, const SourceLocation& where) {
                                                "." + std::string(text.substr(comma + 1, i - comma - 1)));
 }
 
+/// A part of a list without the blanks around it, and without the quotes that a scene file has around a quantity.
+std::string_view without_quotes(std::string_view part) {
+  const auto trim = [&part] {
+    part.remove_prefix(std::min(part.find_first_not_of(" \t"), part.size()));
+    part.remove_suffix(part.size() - std::min(part.find_last_not_of(" \t") + 1, part.size()));
+  };
+  trim();
+  if (part.size() < 2 || part.front() != '"' || part.back() != '"') return part;
+  part = part.substr(1, part.size() - 2);
+  trim();
+  return part;
+}
+
 /// The parts of "[a, b, c]" between brackets and commas of the outermost level; none where the text is no such list.
 std::vector<std::string_view> parts_of_list(std::string_view text) {
   const std::size_t begin = text.find_first_not_of(" \t"), end = text.find_last_not_of(" \t");
@@ -134,13 +147,13 @@ void FormulaReader::refuse_missing_blank(std::string_view text, const SourceLoca
 
 std::optional<Expression> FormulaReader::vector_of_quantities(std::string_view text, const SourceLocation& where,
                                                               std::optional<Dimension> expected) const {
-  const std::vector<std::string_view> parts = parts_of_list(text);
+  std::vector<std::string_view> parts = parts_of_list(text);
+  for (std::string_view& part : parts) part = without_quotes(part);
   const auto is_quantity = [](std::string_view part) { return split_quantity(part).has_value(); };
   if (parts.size() != 3 || ranges::none_of(parts, is_quantity)) return std::nullopt;
   const auto component = [&](std::size_t i) {
-    const std::size_t blanks = std::min(parts[i].find_first_not_of(" \t"), parts[i].size());
-    const auto offset = static_cast<std::size_t>(parts[i].data() - text.data()) + blanks;
-    return read(parts[i].substr(blanks), advanced(where, offset), expected);
+    const auto offset = static_cast<std::size_t>(parts[i].data() - text.data());
+    return read(parts[i], advanced(where, offset), expected);
   };
   const Expression x = component(0);  // one after the other: the first fault is the one reported
   const Expression y = component(1);

@@ -205,16 +205,16 @@ constexpr const char* kRecordsKey = "records";
 constexpr std::string_view kRecordsMark = "\"records\":\"\"";
 
 /// The bodies with what moves them.
-void add_bodies(ModelBuilder& builder, int root, const MotionRecord& motion, const RunResult& result,
-                const detail::Extent& extent, double fps) {
+void add_bodies(ModelBuilder& builder, int root, const RecordedMotion& motion, const RunResult& result,
+                const RunRecords& records, const detail::Extent& extent, double fps) {
   const World& world = motion.world();
-  std::map<std::string_view, std::vector<double>> impact_times;  // of each body
-  for (const Impact& impact : result.impacts) impact_times[impact.body].push_back(impact.elapsed);
+  std::map<std::string, std::vector<double>> impact_times;  // of each body
+  records.each_impact([&](const Impact& impact) { impact_times[impact.body].push_back(impact.elapsed); });
 
   for (std::size_t i = 0; i < world.bodies.size(); ++i) {
     const World::Body& body = world.bodies[i];
     std::vector<double> jumps = std::move(impact_times[body.name]);
-    for (const EventRecord& event : result.events) jumps.push_back(event.elapsed);
+    records.each_event([&](const EventRecord& event) { jumps.push_back(event.elapsed); });
     ranges::sort(jumps, {}, [](double t) { return std::abs(t); });
     const AnimationKeys keys = detail::animation_keys(motion, result, body, jumps, fps);
     const LinearColor color = body.color ? linear(*body.color) : kBodyColors[i % kBodyColors.size()];
@@ -234,7 +234,7 @@ void add_bodies(ModelBuilder& builder, int root, const MotionRecord& motion, con
 
 }  // namespace
 
-void write_gltf(const MotionRecord& motion, const RunResult& result, double fps,
+void write_gltf(const RecordedMotion& motion, const RunResult& result, const RunRecords& records, double fps,
                 const std::function<void(std::string_view)>& write) {
   const detail::Extent extent = detail::extent(motion);
   ModelBuilder builder;
@@ -244,7 +244,7 @@ void write_gltf(const MotionRecord& motion, const RunResult& result, double fps,
   if (motion.world().up == UpAxis::z) builder.node(root).rotation = {-kHalfSqrt2, 0.0, 0.0, kHalfSqrt2};
   builder.node(root).extras =
       Value(Value::Object{{"start_time", Value(result.start_time)}, {kRecordsKey, Value(std::string())}});
-  add_bodies(builder, root, motion, result, extent, fps);
+  add_bodies(builder, root, motion, result, records, extent, fps);
   for (const World::Obstacle& obstacle : motion.world().obstacles) {
     const LinearColor color = obstacle.color ? linear(*obstacle.color) : kObstacleColor;
     const detail::GltfMesh surface = detail::obstacle_mesh(obstacle.shape, extent);
@@ -255,12 +255,12 @@ void write_gltf(const MotionRecord& motion, const RunResult& result, double fps,
     if (obstacle.drive && result.elapsed != 0.0)
       builder.add_animation(node, detail::animation_keys(result, obstacle, start, fps), obstacle.drive->turns);
   }
-  detail::write_with_records(std::move(builder).write(result.title), kRecordsMark, result, write);
+  detail::write_with_records(std::move(builder).write(result.title), kRecordsMark, records, write);
 }
 
-std::string gltf_binary(const MotionRecord& motion, const RunResult& result, double fps) {
+std::string gltf_binary(const RecordedMotion& motion, const RunResult& result, double fps) {
   std::string bytes;
-  write_gltf(motion, result, fps, [&](std::string_view part) { bytes += part; });
+  write_gltf(motion, result, ResultRecords(result), fps, [&](std::string_view part) { bytes += part; });
   return bytes;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
 #include <limits>
 #include <numbers>
 #include <optional>
@@ -30,18 +31,27 @@ struct Moment {
   bool is_before;  // a jump at t: the pose before it
 };
 
-/// The motion of one body.
+/// The motion of one body, read once from its begin to its end.
 class BodyMotion {
  public:
-  BodyMotion(const MotionRecord& motion, const World::Body& body, double direction)
-      : world_(motion.world()), pieces_(motion.pieces(body.group)), body_(body), direction_(direction) {}
+  BodyMotion(const RecordedMotion& motion, const World::Body& body, double direction)
+      : world_(motion.world()), reader_(motion.read(body.group)), body_(body), direction_(direction) {
+    read_on();
+  }
+
+  bool is_empty() const { return pieces_.empty(); }
+
+  /// Nothing before that time will be asked any more.
+  void forget_before(double t) {
+    while (pieces_.size() > 1 && direction_ * (pieces_.front().to - t) < 0.0) pieces_.pop_front();
+  }
 
   // before a jump at t the piece that ends there counts, behind it the one that begins there
-  Pose before(double t) const { return pose(piece_before(t)->segment, t); }
-  Pose behind(double t) const { return pose(piece_behind(t)->segment, t); }
+  Pose before(double t) { return pose(piece_before(t)->segment, t); }
+  Pose behind(double t) { return pose(piece_behind(t)->segment, t); }
 
   /// The largest angular velocity between two times, rad/s.
-  double largest_spin(double from, double to) const {
+  double largest_spin(double from, double to) {
     if (!body_.rotation) return 0.0;
     const int w = body_.slice().angular_velocity_index();
     double largest = 0.0;
@@ -59,17 +69,30 @@ class BodyMotion {
   }
 
  private:
-  using Iterator = std::vector<MotionRecord::Piece>::const_iterator;
+  using Iterator = std::deque<RecordedPiece>::const_iterator;
 
   double later(double a, double b) const { return direction_ * (a - b) > 0.0 ? a : b; }
   double earlier(double a, double b) const { return direction_ * (a - b) < 0.0 ? a : b; }
 
-  Iterator piece_before(double t) const {
+  bool read_on() {
+    const RecordedPiece* const piece = reader_->next();
+    if (piece != nullptr) pieces_.push_back(*piece);
+    return piece != nullptr;
+  }
+  /// Until a piece begins behind t.
+  void read_beyond(double t) {
+    while (direction_ * (pieces_.back().from - t) <= 0.0 && read_on()) {
+    }
+  }
+
+  Iterator piece_before(double t) {
+    read_beyond(t);
     const auto piece =
         ranges::partition_point(pieces_, [&](const auto& each) { return direction_ * (each.to - t) < 0.0; });
     return piece == pieces_.end() ? std::prev(piece) : piece;
   }
-  Iterator piece_behind(double t) const {
+  Iterator piece_behind(double t) {
+    read_beyond(t);
     const auto next =
         ranges::partition_point(pieces_, [&](const auto& each) { return direction_ * (each.from - t) <= 0.0; });
     return next == pieces_.begin() ? next : std::prev(next);
@@ -84,7 +107,8 @@ class BodyMotion {
   }
 
   const World& world_;
-  const std::vector<MotionRecord::Piece>& pieces_;
+  std::unique_ptr<RecordedMotion::Reader> reader_;
+  std::deque<RecordedPiece> pieces_;  // those that are read and not forgotten
   const World::Body& body_;
   double direction_;
 };
@@ -122,6 +146,7 @@ class ObstacleMotion {
  public:
   ObstacleMotion(const World::Drive& drive, const Pose& start) : frame_(drive), start_(start) {}
 
+  void forget_before(double) {}
   Pose before(double t) { return behind(t); }
   Pose behind(double t) {
     const FrameMotion frame = frame_.at(t);
@@ -157,7 +182,10 @@ class KeyMaker {
  private:
   /// Adds the key of a moment, and what the way from the last one to it needs.
   void add(const Moment& moment) {
-    if (last_) fill(*last_, moment);
+    if (last_) {
+      motion_.forget_before(last_->t);
+      fill(*last_, moment);
+    }
     add_key(moment);
     last_ = moment;
   }
@@ -200,11 +228,10 @@ class KeyMaker {
 
 }  // namespace
 
-AnimationKeys animation_keys(const MotionRecord& motion, const RunResult& result, const World::Body& body,
+AnimationKeys animation_keys(const RecordedMotion& motion, const RunResult& result, const World::Body& body,
                              std::span<const double> jumps, double fps) {
-  const auto& pieces = motion.pieces(body.group);
-  if (pieces.empty()) return {};
-  const BodyMotion body_motion(motion, body, result.elapsed < 0.0 ? -1.0 : 1.0);
+  BodyMotion body_motion(motion, body, result.elapsed < 0.0 ? -1.0 : 1.0);
+  if (body_motion.is_empty()) return {};
   return KeyMaker(body_motion, "body '" + body.name + "'", body.rotation.has_value()).make(moments(result, jumps, fps));
 }
 

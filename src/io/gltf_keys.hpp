@@ -27,7 +27,7 @@ struct AnimationKeys {
 ///
 /// Throws std::length_error for more than kMostAnimationKeys keys by `fps` alone, FileError where the body turns so
 /// fast that it needs more of them, or keys closer than single precision can tell.
-AnimationKeys animation_keys(const MotionRecord& motion, const RunResult& result, const World::Body& body,
+AnimationKeys animation_keys(const RecordedMotion& motion, const RunResult& result, const World::Body& body,
                              std::span<const double> jumps, double fps);
 /// The same of a driven obstacle that is drawn so at the start.
 AnimationKeys animation_keys(const RunResult& result, const World::Obstacle& obstacle, const Pose& start, double fps);

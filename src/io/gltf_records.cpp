@@ -4,10 +4,9 @@
 #include <cstdint>
 #include <cstring>
 #include <limits>
-#include <nlohmann/json.hpp>
 
+#include "record_json.hpp"
 #include "trajet/error.hpp"
-#include "trajet/io/names.hpp"
 
 namespace trajet::detail {
 
@@ -15,48 +14,30 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "glTF has little-endian numbers");
 
-using Json = nlohmann::ordered_json;
 using Write = std::function<void(std::string_view)>;
 
 /// A file is a header of magic, version and length, then the chunks, each after its length and its type.
 constexpr std::size_t kHeader = 12, kChunkHeader = 8;
 constexpr std::size_t kLengthInHeader = 8;
 
-Json array(const Vector3& v) { return {v.x(), v.y(), v.z()}; }
-
-Json object(const Impact& impact) {
-  return {{"time", impact.time},
-          {"body", impact.body},
-          {"with", impact.with},
-          {"kind", name(impact.kind)},
-          {"point", array(impact.point)},
-          {"normal", array(impact.normal)},
-          {"position", array(impact.position)},
-          {"velocity_before", array(impact.velocity_before)},
-          {"velocity_after", array(impact.velocity_after)}};
-}
-
-Json object(const EventRecord& event) {
-  Json json = {{"time", event.time}, {"event", event.event}, {"direction", event.direction < 0 ? "falling" : "rising"}};
-  if (!event.law.empty()) json["law"] = event.law;
-  return json;
-}
-
-template <class T>
-void write_list(std::string_view key, const std::vector<T>& items, const Write& write) {
+/// Writes an array of what `for_each(add)` calls `add` with.
+template <class ForEach>
+void write_list(std::string_view key, const Write& write, const ForEach& for_each) {
   write("\"" + std::string(key) + "\":[");
   const char* separator = "";
-  for (const T& item : items) {
-    write(separator + object(item).dump(-1, ' ', false, Json::error_handler_t::replace));
+  for_each([&](const Json& item) {
+    write(separator + item.dump(-1, ' ', false, Json::error_handler_t::replace));
     separator = ",";
-  }
+  });
   write("]");
 }
 
-void write_records(const RunResult& result, const Write& write) {
-  write_list("impacts", result.impacts, write);
+void write_records(const RunRecords& records, const Write& write) {
+  write_list("impacts", write,
+             [&](const auto& add) { records.each_impact([&](const Impact& impact) { add(impact_json(impact)); }); });
   write(",");
-  write_list("events", result.events, write);
+  write_list("events", write,
+             [&](const auto& add) { records.each_event([&](const EventRecord& event) { add(event_json(event)); }); });
 }
 
 std::uint32_t number(std::string_view bytes, std::size_t at) {
@@ -76,7 +57,7 @@ void write_number(std::size_t value, const Write& write) {
 
 }  // namespace
 
-void write_with_records(const std::string& glb, std::string_view mark, const RunResult& result, const Write& write) {
+void write_with_records(const std::string& glb, std::string_view mark, const RunRecords& records, const Write& write) {
   const std::string_view file = glb;
   const std::size_t json_length = number(file, kHeader);
   std::string_view json = file.substr(kHeader + kChunkHeader, json_length);
@@ -85,7 +66,7 @@ void write_with_records(const std::string& glb, std::string_view mark, const Run
   const std::size_t at = json.find(mark);
 
   std::size_t records_length = 0;
-  write_records(result, [&](std::string_view part) { records_length += part.size(); });
+  write_records(records, [&](std::string_view part) { records_length += part.size(); });
   const std::size_t length = json.size() - mark.size() + records_length;
   constexpr std::size_t kAlignment = 4;
   const std::size_t padding = (kAlignment - length % kAlignment) % kAlignment;
@@ -95,7 +76,7 @@ void write_with_records(const std::string& glb, std::string_view mark, const Run
   write_number(length + padding, write);
   write(file.substr(kHeader + sizeof(std::uint32_t), sizeof(std::uint32_t)));
   write(json.substr(0, at));
-  write_records(result, write);
+  write_records(records, write);
   write(json.substr(at + mark.size()));
   write(std::string(padding, ' '));
   write(chunks_behind);

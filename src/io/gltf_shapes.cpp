@@ -260,15 +260,17 @@ GltfMesh obstacle_mesh(const Shape& shape, const Extent& extent) {
   return std::visit([&](const auto& each) { return mesh_of(each, extent); }, shape);
 }
 
-Extent extent(const MotionRecord& motion) {
+Extent extent(const RecordedMotion& motion) {
   const World& world = motion.world();
   Eigen::AlignedBox3d box;
   const auto extend = [&](const Vector3& center, double radius) {
     box.extend(Vector3(center.array() - radius));
     box.extend(Vector3(center.array() + radius));
   };
-  for (const World::Body& body : world.bodies)
-    for (const MotionRecord::Piece& piece : motion.pieces(body.group)) {
+  for (const World::Body& body : world.bodies) {
+    const auto pieces = motion.read(body.group);
+    while (const RecordedPiece* const next = pieces->next()) {
+      const RecordedPiece& piece = *next;
       // enough points that no bend of a long piece is missed
       constexpr int kParts = 8;
       for (int i = 0; i <= kParts; ++i) {
@@ -277,6 +279,7 @@ Extent extent(const MotionRecord& motion) {
         extend({at(0), at(1), at(2)}, reach(body));
       }
     }
+  }
   if (box.isEmpty()) box.extend(Vector3(Vector3::Zero()));
   const double motion_size = box.sizes().maxCoeff();
   double smallest_obstacle = std::numeric_limits<double>::infinity();

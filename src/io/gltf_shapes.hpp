@@ -27,7 +27,7 @@ struct Extent {
   double size;          ///< m, of the longest side of the box around it; > 0
   double point_radius;  ///< m; the size of a ball that stands for a point: one can see it, and what it meets
 };
-Extent extent(const MotionRecord& motion);
+Extent extent(const RecordedMotion& motion);
 
 /// A body in its own frame. A point is a small ball, so that it can be seen; if it has named points, rods lead to them.
 GltfMesh body_mesh(const World::Body& body, const Extent& extent);

@@ -26,16 +26,16 @@ class JsonObjectWriter {
 
   void member(std::string_view key, const Json& value);
 
-  /// An array of `object(item)` for each of the items; these are objects that are not empty.
-  template <class Items, class Object>
-  void array(std::string_view key, const Items& items, const Object& object) {
+  /// An array of what `write_items(add)` calls `add` with, one after the other: objects that are not empty.
+  template <class WriteItems>
+  void array(std::string_view key, const WriteItems& write_items) {
     begin_member(key);
-    const char* separator = "[";
-    for (const auto& item : items) {
-      add_item(separator, object(item));
-      separator = ",";
-    }
-    text_ += items.empty() ? "[]" : "\n  ]";
+    bool is_empty = true;
+    write_items([&](const Json& item) {
+      add_item(is_empty ? "[" : ",", item);
+      is_empty = false;
+    });
+    text_ += is_empty ? "[]" : "\n  ]";
   }
 
   /// Closes the object. Nothing may follow.

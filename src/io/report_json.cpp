@@ -1,6 +1,6 @@
 #include "trajet/io/report_json.hpp"
 
-#include "json_text.hpp"
+#include "record_json.hpp"
 #include "trajet/io/names.hpp"
 #include "trajet/version.hpp"
 
@@ -8,9 +8,8 @@ namespace trajet {
 
 namespace {
 
+using detail::array;
 using detail::Json;
-
-Json array(const Vector3& v) { return {v.x(), v.y(), v.z()}; }
 
 Json array(const Matrix3& m) { return {array(Vector3(m.row(0))), array(Vector3(m.row(1))), array(Vector3(m.row(2)))}; }
 
@@ -37,19 +36,11 @@ std::string_view name(Feature feature) {
 }
 
 Json object(const Impact& impact) {
-  Json json = {{"time", impact.time},
-               {"body", impact.body},
-               {"with", impact.with},
-               {"kind", name(impact.kind)},
-               {"point", array(impact.point)},
-               {"normal", array(impact.normal)},
-               {"position", array(impact.position)},
-               {"velocity_before", array(impact.velocity_before)},
-               {"velocity_after", array(impact.velocity_after)},
-               {"angular_velocity_before", array(impact.angular_velocity_before)},
-               {"angular_velocity_after", array(impact.angular_velocity_after)},
-               {"impulse", array(impact.impulse)},
-               {"time_error_bound", impact.time_error_bound}};
+  Json json = detail::impact_json(impact);
+  json["angular_velocity_before"] = array(impact.angular_velocity_before);
+  json["angular_velocity_after"] = array(impact.angular_velocity_after);
+  json["impulse"] = array(impact.impulse);
+  json["time_error_bound"] = impact.time_error_bound;
   if (impact.partner) {
     json["with_velocity_before"] = array(impact.partner->velocity_before);
     json["with_velocity_after"] = array(impact.partner->velocity_after);
@@ -59,12 +50,6 @@ Json object(const Impact& impact) {
   if (!impact.touched) return json;
   json["features"] = {name(impact.touched->of_body), name(impact.touched->of_obstacle)};
   for (const Vector3& point : impact.touched->points) json["points"].push_back(array(point));
-  return json;
-}
-
-Json object(const EventRecord& event) {
-  Json json = {{"time", event.time}, {"event", event.event}, {"direction", event.direction < 0 ? "falling" : "rising"}};
-  if (!event.law.empty()) json["law"] = event.law;
   return json;
 }
 
@@ -96,14 +81,14 @@ Json object(const BodyState& state) {
   return json;
 }
 
-template <class T>
-void write_array(detail::JsonObjectWriter& writer, std::string_view key, const std::vector<T>& items) {
-  writer.array(key, items, [](const T& item) { return object(item); });
-}
-
 }  // namespace
 
 void write_report_json(const RunResult& result, const std::function<void(std::string_view)>& write) {
+  write_report_json(result, ResultRecords(result), write);
+}
+
+void write_report_json(const RunResult& result, const RunRecords& records,
+                       const std::function<void(std::string_view)>& write) {
   detail::JsonObjectWriter writer(write);
   writer.member("trajet", kVersion);
   writer.member("scene", result.scene);
@@ -114,11 +99,19 @@ void write_report_json(const RunResult& result, const std::function<void(std::st
   writer.member("start_time", result.start_time);
   writer.member("end_time", result.end_time);
   writer.member("parameters", object(result.parameters));
-  write_array(writer, "impacts", result.impacts);
-  write_array(writer, "events", result.events);
+  writer.array("impacts",
+               [&](const auto& add) { records.each_impact([&](const Impact& impact) { add(object(impact)); }); });
+  writer.array("events", [&](const auto& add) {
+    records.each_event([&](const EventRecord& event) { add(detail::event_json(event)); });
+  });
   writer.member("verdict", result.unresolved.empty() ? "complete" : "unresolved");
-  if (!result.unresolved.empty()) write_array(writer, "unresolved", result.unresolved);
-  write_array(writer, "final", result.final.bodies);
+  if (!result.unresolved.empty())
+    writer.array("unresolved", [&](const auto& add) {
+      for (const UnresolvedContact& contact : result.unresolved) add(object(contact));
+    });
+  writer.array("final", [&](const auto& add) {
+    for (const BodyState& state : result.final.bodies) add(object(state));
+  });
   writer.member("states", object(result.final.states));
   writer.member("warnings", result.warnings);
   Json statistics = {{"steps", result.statistics.steps},

@@ -2,6 +2,8 @@
 
 #include <optional>
 #include <string>
+#include <utility>
+#include <variant>
 #include <vector>
 
 #include "trajet/portable.hpp"
@@ -14,7 +16,7 @@ namespace {
 template <class Definition, class Member>
 struct KeyOf {
   std::string_view name;
-  Dimension dimension;
+  std::optional<Dimension> dimension;
   Member Definition::*member;
 };
 template <class Definition>
@@ -41,7 +43,21 @@ constexpr Optional<BodyDefinition> kBodyKeys[] = {
 };
 constexpr Optional<ObstacleDefinition> kObstacleKeys[] = {
     {"center", kLength, &ObstacleDefinition::center},
+    {"velocity", kSpeed, &ObstacleDefinition::velocity},
+    {"angular_velocity", kAngularVelocity, &ObstacleDefinition::angular_velocity},
     {"restitution", kDimensionless, &ObstacleDefinition::restitution}};
+constexpr Optional<TimeOptions> kTimeKeys[] = {{"end", kTime, &TimeOptions::end},
+                                               {"sample", kTime, &TimeOptions::sample}};
+constexpr Required<TimeOptions> kTimeStarts[] = {{"start", kTime, &TimeOptions::start}};
+constexpr Optional<MethodOptions> kMethodKeys[] = {{"rtol", kDimensionless, &MethodOptions::rtol},
+                                                   {"atol", kDimensionless, &MethodOptions::atol},
+                                                   {"step", kTime, &MethodOptions::step},
+                                                   {"max_step", kTime, &MethodOptions::max_step},
+                                                   {"max_seconds", kTime, &MethodOptions::max_seconds}};
+/// Any dimension: what they are is known of all of them together.
+constexpr Required<StateDefinition> kStateKeys[] = {{"value", {}, &StateDefinition::value},
+                                                    {"rate", {}, &StateDefinition::rate}};
+constexpr Required<EventDefinition> kEventKeys[] = {{"when", {}, &EventDefinition::when}};
 
 /// Looks a name up while it collects those that there are.
 class KeySearch {
@@ -49,21 +65,76 @@ class KeySearch {
   explicit KeySearch(std::string_view name) : name_(name) {}
 
   template <class Definition, class Keys>
-  void look_among(std::vector<Definition>& definitions, const Keys& keys) {
-    for (Definition& definition : definitions)
-      for (const auto& key : keys) {
-        known_.push_back(definition.name + "." + std::string(key.name));
-        if (known_.back() != name_) continue;
-        found_ = SceneKey{key.dimension, [&definition, member = key.member](Expression value) {
+  void look_in(Definition& definition, const std::string& owner, const Keys& keys) {
+    for (const auto& key : keys)
+      if (is_it(owner, key.name))
+        found_ = SceneKey{.dimension = key.dimension, .set = [&definition, member = key.member](Expression value) {
                             definition.*member = std::move(value);
                           }};
-      }
+  }
+
+  template <class Definition, class Keys>
+  void look_among(std::vector<Definition>& definitions, const Keys& keys) {
+    for (Definition& definition : definitions) look_in(definition, definition.name, keys);
+  }
+
+  /// The sizes of shapes.
+  template <class Definition>
+  void look_at_shape(Definition& definition) {
+    if (definition.rounding && is_it(definition.name, "rounding"))
+      take(kLength, [&](Expression value) { definition.rounding = std::move(value); });
+    std::visit(
+        [&]<class Shape>(Shape& shape) {
+          if constexpr (requires { shape.radius; }) look_at(definition.name, "radius", kLength, shape.radius);
+          // a rectangle's height is a part of its size
+          if constexpr (
+              requires { shape.height; } && !requires { shape.width; })
+            look_at(definition.name, "height", kLength, shape.height);
+          if constexpr (requires { shape.size; }) look_at(definition.name, "size", kLength, shape.size);
+          if constexpr (requires { shape.radii; }) look_at(definition.name, "radii", kLength, shape.radii);
+          if constexpr (requires { shape.normal; }) look_at(definition.name, "normal", kDimensionless, shape.normal);
+          if constexpr (requires { shape.scale; }) look_at(definition.name, "scale", kDimensionless, shape.scale);
+        },
+        definition.shape);
+  }
+
+  void look_at_plane(ObstacleDefinition& obstacle) {
+    if (std::holds_alternative<PlaneShape>(obstacle.shape) && is_it(obstacle.name, "point"))
+      take(kLength, [&](Expression value) { obstacle.center = std::move(value); });
+  }
+
+  void look_at_hit(ObstacleDefinition& obstacle, const SourceLocation& where) {
+    if (!is_it(obstacle.name, "on_hit")) return;
+    found_ =
+        SceneKey{.set_word = [&obstacle, where](const std::string& word) { obstacle.on_hit = on_hit(word, where); }};
   }
 
   const std::optional<SceneKey>& found() const { return found_; }
   const std::vector<std::string>& known() const { return known_; }
 
  private:
+  static OnHit on_hit(const std::string& word, const SourceLocation& where) {
+    constexpr std::pair<std::string_view, OnHit> kWords[] = {
+        {"stop", OnHit::stop}, {"bounce", OnHit::bounce}, {"pass", OnHit::pass}};
+    for (const auto& [name, value] : kWords)
+      if (word == name) return value;
+    constexpr std::string_view kNames[] = {"stop", "bounce", "pass"};
+    throw InputError(where, "stop, bounce or pass expected, got '" + word + "'" + did_you_mean(word, kNames));
+  }
+
+  bool is_it(const std::string& owner, std::string_view key) {
+    known_.push_back(owner + "." + std::string(key));
+    return known_.back() == name_;
+  }
+
+  void take(std::optional<Dimension> dimension, std::function<void(Expression)> set) {
+    found_ = SceneKey{.dimension = dimension, .set = std::move(set)};
+  }
+
+  void look_at(const std::string& owner, std::string_view key, Dimension dimension, Expression& target) {
+    if (is_it(owner, key)) take(dimension, [&target](Expression value) { target = std::move(value); });
+  }
+
   std::string_view name_;
   std::vector<std::string> known_;
   std::optional<SceneKey> found_;
@@ -73,13 +144,24 @@ class KeySearch {
 
 SceneKey find_key(Scene& scene, std::string_view name, const SourceLocation& where) {
   KeySearch search(name);
+  search.look_in(scene.time, "time", kTimeKeys);
+  search.look_in(scene.time, "time", kTimeStarts);
+  search.look_in(scene.method, "method", kMethodKeys);
   search.look_among(scene.bodies, kBodyStarts);
   search.look_among(scene.bodies, kBodyKeys);
+  for (BodyDefinition& body : scene.bodies) search.look_at_shape(body);
   search.look_among(scene.obstacles, kObstacleKeys);
+  for (ObstacleDefinition& obstacle : scene.obstacles) {
+    search.look_at_shape(obstacle);
+    search.look_at_plane(obstacle);
+    search.look_at_hit(obstacle, where);
+  }
+  search.look_among(scene.states, kStateKeys);
+  search.look_among(scene.events, kEventKeys);
   if (search.found()) return *search.found();
   const std::vector<std::string_view> known(search.known().begin(), search.known().end());
-  throw InputError(
-      where, "the scene has no key '" + std::string(name) + "' that a formula can replace" + did_you_mean(name, known));
+  throw InputError(where,
+                   "the scene has no key '" + std::string(name) + "' that can be replaced" + did_you_mean(name, known));
 }
 
 }  // namespace trajet::detail

@@ -45,6 +45,11 @@ std::string without_blanks_around(std::string text) {
   return text;
 }
 
+std::string without_quotes_around(const std::string& text) {
+  const bool is_quoted = text.size() >= 2 && text.front() == '"' && text.back() == '"';
+  return is_quoted ? text.substr(1, text.size() - 2) : text;
+}
+
 void set_parameter(const std::string& assignment, Scene& scene) {
   const std::size_t equals = assignment.find('=');
   if (equals == std::string::npos) throw InputError({"--set"}, "NAME=VALUE expected, got '" + assignment + "'");
@@ -53,11 +58,16 @@ void set_parameter(const std::string& assignment, Scene& scene) {
   if (name.find('.') != std::string::npos) {
     const SourceLocation where{"--set " + name};
     const detail::SceneKey key = detail::find_key(scene, name, where);
+    if (key.set_word) {
+      key.set_word(without_quotes_around(value));
+      return;
+    }
     detail::FormulaReader formulas = formulas_of(scene);
     Expression formula = formulas.read(value, where, key.dimension);
     formulas.read_tables(formula);
     scene.tables = formulas.tables();
     key.set(std::move(formula));
+    if (name == "method.step") scene.method.steps.clear();
     return;
   }
   const auto parameter = ranges::find(scene.parameters, name, &NamedExpression::name);

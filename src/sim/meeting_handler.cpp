@@ -149,6 +149,8 @@ void MeetingHandler::bounce(const Meeting& meeting, const Surface& surface, Impa
   if (!(restitution >= 0.0 && restitution <= 1.0))
     return end(describe_impossible_restitution("bodies " + names(meeting), surface, restitution, speed));
 
+  for (const Meeting::Id& id : run_.meetings().met_at_once(meeting))
+    run_.recorder().warn_of_tie(impact, body(id.first).name, body(id.second).name);
   sample(meeting, SamplePhase::before);
   Instant instant_first(first, t), other(second, t);
   Instant& instant_second = first_index == second_index ? instant_first : other;

@@ -169,6 +169,18 @@ const Meeting* Meetings::first(int index) const {
   return first;
 }
 
+std::vector<Meeting::Id> Meetings::met_at_once(const Meeting& meeting) const {
+  std::vector<Meeting::Id> met;
+  for (const int index : {meeting.id.first, meeting.id.second})
+    for (const int other : window(index).others) {
+      const Meeting& each = meetings_.find(std::minmax(index, other))->second;
+      if (each.id == meeting.id || each.contact.status != ContactStatus::hit) continue;
+      const double resolution = meeting.contact.time_resolution + each.contact.time_resolution;
+      if (std::abs(each.contact.time - meeting.contact.time) <= resolution) met.push_back(each.id);
+    }
+  return met;
+}
+
 std::vector<int> Meetings::take_changed() {
   std::vector<int> groups;
   for (const int index : changed_) groups.push_back(body(index).group);

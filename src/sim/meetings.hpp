@@ -46,6 +46,8 @@ class Meetings {
 
   /// The first meeting of the body on what was searched; null if there is none.
   const Meeting* first(int body) const;
+  /// The other meetings of either body whose time cannot be told from that of this one.
+  std::vector<Meeting::Id> met_at_once(const Meeting& meeting) const;
   /// Bodies meet at `first` or later in other ways than they did when that was asked last: their courses, in order.
   std::vector<int> take_changed();
 

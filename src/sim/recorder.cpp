@@ -104,27 +104,34 @@ void Recorder::put_on_clock(Impact& impact) const {
 }
 
 void Recorder::event(double time, const std::string& name, int direction, const std::string& law) {
-  result_.events.push_back({world_.epoch + time, time, name, direction, law});
+  EventRecord event{world_.epoch + time, time, name, direction, law};
+  observer_.event(event);
+  if (!wishes_.takes_records) result_.events.push_back(std::move(event));
 }
 
 void Recorder::impact(Impact impact) {
-  if (!result_.impacts.empty()) {
-    const Impact& last = result_.impacts.back();
+  if (last_impact_) {
+    const Impact& last = *last_impact_;
     const double apart = std::abs(impact.elapsed - last.elapsed);
-    const bool is_tie = impact.with != last.with && apart <= impact.time_error_bound + last.time_error_bound;
+    // a meeting of bodies that others cause at once is none: its handler knows
+    const bool is_meeting = impact.partner || last.partner;
+    const bool is_tie = !is_meeting && impact.with != last.with && apart <= impact.time_error_bound + last.time_error_bound;
     if (is_tie && impact.kind == ImpactKind::hit && last.kind == ImpactKind::hit)
       warn_of_tie(last, impact.body, impact.with);
   }
-  put_on_clock(impact);
-  result_.impacts.push_back(std::move(impact));
+  keep(std::move(impact));
 }
 
 void Recorder::impacts(std::vector<Impact> group) {
   impact(group.front());
-  for (Impact& each : std::span(group).subspan(1)) {
-    put_on_clock(each);
-    result_.impacts.push_back(std::move(each));
-  }
+  for (Impact& each : std::span(group).subspan(1)) keep(std::move(each));
+}
+
+void Recorder::keep(Impact impact) {
+  put_on_clock(impact);
+  last_impact_ = impact;
+  observer_.impact(impact);
+  if (!wishes_.takes_records) result_.impacts.push_back(std::move(impact));
 }
 
 void Recorder::unresolved(double time, const std::string& body, const std::string& with, const std::string& why) {

@@ -60,6 +60,7 @@ class Recorder {
   RunResult result();
 
  private:
+  void keep(Impact impact);
   /// Gives an impact the time of the scene's clock, whose digits its bound counts too.
   void put_on_clock(Impact& impact) const;
   Sample sample_at(double time, std::optional<int> body, SamplePhase phase) const;
@@ -74,6 +75,7 @@ class Recorder {
   RunResult result_;
   long next_sample_ = 0;
   std::optional<double> last_sample_;  // s, of all bodies
+  std::optional<Impact> last_impact_;
 };
 
 }  // namespace trajet

@@ -98,7 +98,7 @@ int significant_degree(const Segment<>& segment, int component, double duration)
 /// Appends a piece as numbers, its times those of the clock that shows `epoch` at the start: from, to, the Segment's
 /// t0, the degrees of all components, six to a number as its digits to the base 256, the first the least, and then the
 /// coefficients of each component, (t - t0)^0 first.
-void append(std::vector<double>& numbers, const MotionRecord::Piece& piece, double epoch) {
+void append(std::vector<double>& numbers, const RecordedPiece& piece, double epoch) {
   const Segment<>& segment = piece.segment;
   numbers.insert(numbers.end(), {epoch + piece.from, epoch + piece.to, epoch + segment.t0()});
   std::vector<int> degrees;
@@ -111,38 +111,40 @@ void append(std::vector<double>& numbers, const MotionRecord::Piece& piece, doub
     for (int k = 0; k <= degrees[static_cast<std::size_t>(i)]; ++k) numbers.push_back(segment.coefficients()(i, k));
 }
 
-/// Gives all pieces of a group, one after the other, as parts of a text in base64.
-void write_packed(const std::vector<MotionRecord::Piece>& pieces, double epoch,
-                  const std::function<void(const std::string&)>& add) {
+/// Gives all pieces that `for_each` has, one after the other, as parts of a text in base64.
+template <class ForEach>
+void write_packed(const ForEach& for_each, double epoch, const std::function<void(const std::string&)>& add) {
   constexpr std::size_t kWhole = 3;  // so many doubles have a whole number of base64's groups of three bytes
   std::vector<double> numbers;
   const auto write = [&](std::size_t count) {
     add(base64({reinterpret_cast<const std::uint8_t*>(numbers.data()), count * sizeof(double)}));
     numbers.erase(numbers.begin(), numbers.begin() + static_cast<std::ptrdiff_t>(count));
   };
-  for (const MotionRecord::Piece& piece : pieces) {
+  for_each([&](const RecordedPiece& piece) {
     append(numbers, piece, epoch);
     write(numbers.size() - numbers.size() % kWhole);
-  }
+  });
   write(numbers.size());
 }
 
 /// How an obstacle moves on the way of a run of that duration (s).
 Json drive_data(const World::Drive& drive, double duration, double epoch) {
   DrivenFrame frame(drive);
-  std::vector<MotionRecord::Piece> pieces;
-  for (double t = 0.0; t < duration;) {
-    const Segment<7> piece = frame.piece(t, duration);
-    if (!(piece.t1() > t)) break;
-    MotionRecord::Piece& kept = pieces.emplace_back();
-    kept.segment.resize(piece.dimension(), piece.degree());
-    kept.segment.coefficients() = piece.coefficients();
-    kept.segment.set_interval(piece.t0(), piece.t1());
-    kept.from = t;
-    kept.to = t = piece.t1();
-  }
+  const auto each_piece = [&](const auto& use) {
+    RecordedPiece kept;
+    for (double t = 0.0; t < duration;) {
+      const Segment<7> piece = frame.piece(t, duration);
+      if (!(piece.t1() > t)) break;
+      kept.segment.resize(piece.dimension(), piece.degree());
+      kept.segment.coefficients() = piece.coefficients();
+      kept.segment.set_interval(piece.t0(), piece.t1());
+      kept.from = t;
+      kept.to = t = piece.t1();
+      use(kept);
+    }
+  };
   std::string packed;
-  write_packed(pieces, epoch, [&](const std::string& part) { packed += part; });
+  write_packed(each_piece, epoch, [&](const std::string& part) { packed += part; });
   return {{"pivot", array(drive.pivot)}, {"pieces", packed}};
 }
 
@@ -227,11 +229,13 @@ Json body_data(const World::Body& body, const World::Group& group) {
 }
 
 /// The box around all ways.
-Aabb span_of(const MotionRecord& motion) {
+Aabb span_of(const RecordedMotion& motion) {
   Aabb box;
   const World& world = motion.world();
-  for (const World::Body& body : world.bodies)
-    for (const MotionRecord::Piece& piece : motion.pieces(body.group)) {
+  for (const World::Body& body : world.bodies) {
+    const auto pieces = motion.read(body.group);
+    while (const RecordedPiece* const next = pieces->next()) {
+      const RecordedPiece& piece = *next;
       constexpr int kParts = 8;  // enough that no bend of a long piece is missed
       for (int i = 0; i <= kParts; ++i) {
         const double t = piece.from + (piece.to - piece.from) * i / kParts;
@@ -239,6 +243,7 @@ Aabb span_of(const MotionRecord& motion) {
         box = united(box, Vector3(at(0), at(1), at(2)));
       }
     }
+  }
   return is_bounded(box) ? box : Aabb{Vector3(-1, -1, -1), Vector3(1, 1, 1)};
 }
 
@@ -288,7 +293,11 @@ void write_page_data(const PageRun& run, ScriptText& text) {
   for (std::size_t g = 0; g < world.groups.size(); ++g) {
     text.add((g == 0 ? R"({"dimension":)" : R"(,{"dimension":)") + std::to_string(world.groups[g].start.size()));
     text.add(R"(,"pieces":")");
-    write_packed(run.motion.pieces(static_cast<int>(g)), world.epoch, [&](const std::string& part) { text.add(part); });
+    const auto each_piece = [&](const auto& use) {
+      const auto pieces = run.motion.read(static_cast<int>(g));
+      while (const RecordedPiece* const piece = pieces->next()) use(*piece);
+    };
+    write_packed(each_piece, world.epoch, [&](const std::string& part) { text.add(part); });
     text.add(R"("})");
   }
   text.add("]}");

@@ -238,6 +238,13 @@ TEST(ExitCodes, AreThoseOfTheContractWhereNoMessageCanBeWritten) {
   }
 }
 
+TEST(ExitCodes, OfATextThatCannotBeWrittenIsThatOfAFile) {
+  for (const std::string arguments : {"--help", "run --help", "--version", "methods", "examples", "completion bash"}) {
+    const int status = std::system((TRAJET_PROGRAM " " + arguments + " >/dev/full 2>/dev/null").c_str());
+    EXPECT_EQ(WIFEXITED(status) ? WEXITSTATUS(status) : -1, 5) << arguments;
+  }
+}
+
 /// What the program says where it may have so many KiB of memory.
 ProgramResult run_within(int memory, const std::string& arguments) {
   const TemporaryFolder folder;
@@ -259,8 +266,9 @@ TEST(ExitCodes, WhereMemoryEndsWhatWasComputedIsWritten) {
       "point = [0, 0, 0]\nnormal = [0, 0, 1]\non_hit = \"bounce\"\n");
   const std::string json = folder.file("r.json"), csv = folder.file("r.csv"), glb = folder.file("r.glb");
   for (const std::string& more : {std::string(), " --glb " + glb + " --fps 0.1"}) {
-    const ProgramResult result =
-        run_within(60'000, "run " + scene + " --quiet --json " + json + " --csv " + csv + more);
+    // what a figure shows is in memory, all of it
+    const ProgramResult result = run_within(60'000, "run " + scene + " --quiet --json " + json + " --csv " + csv +
+                                                        " --plot " + folder.file("r.svg") + more);
     EXPECT_EQ(result.exit_code, 4) << result.err;
     EXPECT_NE(result.err.find("error: memory has run out; what was computed until then is kept"), std::string::npos)
         << result.err;

@@ -94,6 +94,37 @@ TEST(Cost, NothingIsComputedForAnObserverThatWishesNothing) {
   EXPECT_EQ(silent.samples + silent.pieces, 0);
 }
 
+/// Takes what happens.
+class Taker : public RunObserver {
+ public:
+  RunWishes wishes() const override { return {.takes_records = true}; }
+  void impact(const Impact& impact) override { impacts.push_back(impact); }
+  void event(const EventRecord& event) override { events.push_back(event); }
+
+  std::vector<Impact> impacts;
+  std::vector<EventRecord> events;
+};
+
+TEST(Cost, AResultHoldsNoImpactsAndEventsThatAnObserverTakes) {
+  const std::string scene = balls(3) + "[[event]]\nname = \"apex\"\nwhen = \"b1.vz\"\n";
+  Taker taker;
+  Counter listener;  // hears of them and leaves them
+  const RunResult taken = run_text(scene, &taker), kept = run_text(scene, &listener);
+  EXPECT_TRUE(taken.impacts.empty());
+  EXPECT_TRUE(taken.events.empty());
+  ASSERT_GT(kept.impacts.size(), 3u);
+  ASSERT_GT(kept.events.size(), 1u);
+  ASSERT_EQ(taker.impacts.size(), kept.impacts.size());
+  ASSERT_EQ(taker.events.size(), kept.events.size());
+  for (std::size_t i = 0; i < kept.impacts.size(); ++i) {
+    EXPECT_EQ(taker.impacts[i].time, kept.impacts[i].time);
+    EXPECT_EQ(taker.impacts[i].body, kept.impacts[i].body);
+    EXPECT_EQ(taker.impacts[i].velocity_after, kept.impacts[i].velocity_after);
+  }
+  for (std::size_t i = 0; i < kept.events.size(); ++i) EXPECT_EQ(taker.events[i].time, kept.events[i].time);
+  EXPECT_EQ(taken.warnings, kept.warnings);
+}
+
 TEST(Cost, SamplesThatNobodyReadsAreNoWork) {
   class Mover : public Counter {
    public:

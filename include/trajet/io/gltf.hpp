@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "trajet/sim/motion_record.hpp"
+#include "trajet/sim/run_records.hpp"
 
 namespace trajet {
 
@@ -22,10 +23,10 @@ inline constexpr double kMostAnimationKeys = 1e6;
 /// too fast for so many, or a file would be larger than glTF allows (4 GiB).
 ///
 /// `write` gets the file part by part: what happened in the run is never one text in memory.
-void write_gltf(const MotionRecord& motion, const RunResult& result, double fps,
+void write_gltf(const RecordedMotion& motion, const RunResult& result, const RunRecords& records, double fps,
                 const std::function<void(std::string_view)>& write);
 
-/// The same in one text.
-std::string gltf_binary(const MotionRecord& motion, const RunResult& result, double fps);
+/// The same in one text, of a result that holds its impacts and events.
+std::string gltf_binary(const RecordedMotion& motion, const RunResult& result, double fps);
 
 }  // namespace trajet

@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "trajet/sim/run_result.hpp"
+#include "trajet/sim/run_records.hpp"
 
 namespace trajet {
 
@@ -13,6 +13,9 @@ namespace trajet {
 ///
 /// `write` gets the text part by part: the memory that is needed beside the result does not grow with it.
 void write_report_json(const RunResult& result, const std::function<void(std::string_view)>& write);
+/// The same where the impacts and events of the run have been kept elsewhere.
+void write_report_json(const RunResult& result, const RunRecords& records,
+                       const std::function<void(std::string_view)>& write);
 
 /// The same in one text.
 std::string report_json(const RunResult& result);

@@ -23,6 +23,7 @@ class ObserverList : public RunObserver {
     for (const RunObserver* each : observers_) {
       all.motion |= each->wishes().motion;
       all.samples |= each->wishes().samples;
+      all.takes_records |= each->wishes().takes_records;
     }
     return all;
   }
@@ -36,6 +37,12 @@ class ObserverList : public RunObserver {
   void sample(const Sample& sample) override {
     for (RunObserver* each : observers_)
       if (each->wishes().samples) each->sample(sample);
+  }
+  void impact(const Impact& impact) override {
+    for (RunObserver* each : observers_) each->impact(impact);
+  }
+  void event(const EventRecord& event) override {
+    for (RunObserver* each : observers_) each->event(event);
   }
   bool interrupted(double time) override {
     return ranges::any_of(observers_, [time](RunObserver* each) { return each->interrupted(time); });

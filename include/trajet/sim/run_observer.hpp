@@ -21,6 +21,9 @@ struct MotionPiece {
 struct RunWishes {
   bool motion = false;
   bool samples = false;
+  /// Impacts and events are left to the observer: the RunResult holds none of them, and a run with many needs no memory
+  /// for them.
+  bool takes_records = false;
 };
 
 /// Receives a run while it goes on. Every function has a default that does nothing.
@@ -37,6 +40,9 @@ class RunObserver {
   /// In order of time: all bodies at the start, at each multiple of the sample spacing and at the end; the body
   /// concerned before and after each impact.
   virtual void sample(const Sample&) {}
+  /// Each impact and each event as it happens, in the order of the report.
+  virtual void impact(const Impact&) {}
+  virtual void event(const EventRecord&) {}
   /// Asked between steps and samples: true ends the run as `interrupted`. `time` is how far the run has come, by the
   /// scene's clock. Where memory is about to end, it may throw std::bad_alloc: the run then ends as `failed`.
   virtual bool interrupted(double time) { return time != time; }

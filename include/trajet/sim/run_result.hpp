@@ -120,8 +120,8 @@ struct RunResult {
   double end_time = 0.0;
   double elapsed = 0.0;  ///< s from the start to the end; negative backward in time
   std::vector<NamedValue> parameters;
-  std::vector<Impact> impacts;
-  std::vector<EventRecord> events;
+  std::vector<Impact> impacts;      ///< none where an observer has taken the records
+  std::vector<EventRecord> events;  ///< likewise
   /// If empty, no impact is missing between the start and the end.
   std::vector<UnresolvedContact> unresolved;
   Sample final;

@@ -12,7 +12,7 @@ namespace trajet {
 
 /// One run on the page. The first is the motion itself, further ones are shown beside it as ghosts.
 struct PageRun {
-  const MotionRecord& motion;
+  const RecordedMotion& motion;
   /// Writes its JSON report, part by part: docs/formats/report.md.
   std::function<void(const std::function<void(std::string_view)>& write)> report;
 };
