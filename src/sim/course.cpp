@@ -13,98 +13,33 @@
 
 namespace trajet {
 
-Support support_of(const std::vector<RestingContact>& contacts, int offset) {
-  std::vector<Vector3> normals;
-  for (const RestingContact& contact : contacts)
-    if (contact.offset == offset) normals.push_back(contact.normal);
-  return support(normals);
-}
-
 Course::Course(const World& world, int group)
     : world_(world),
       group_(group),
-      free_system_(std::make_unique<ProgramSystem>(this->group().law)),
+      held_law_(world, group),
       switches_(this->group().law),
       orientations_(world, group),
       closed_rotations_(world, group),
-      error_(static_cast<int>(this->group().start.size()), world.method->carries_extended ? 0x1p-64 : kUnitRoundoff) {
-  for (const int event : this->group().events) {
-    const World::Event& definition = world.events[static_cast<std::size_t>(event)];
-    watches_.push_back({Crossing::Kind::event, event, EventWatch(definition.when, definition.direction)});
-  }
+      error_(static_cast<int>(this->group().start.size()), world.method->carries_extended ? 0x1p-64 : kUnitRoundoff),
+      watches_(world, group, held_law_) {
   piece_ = {0.0, 0.0, 0.0, true};
   if (keeps_tolerance() && world.atol_follows_scale) scale_.emplace(world, group, orientations_.tolerance_factor());
   if (keeps_tolerance() && !world.atol_follows_scale) tolerance_check_.emplace(world, group);
-  use_contacts();
+  make_stepper();
   begin(0.0, this->group().start, nullptr);
 }
 
-void Course::use_contacts() {
-  if (stepper_) {
-    finished_steppers_ = statistics();
-    finished_warnings_ = warnings();
-  }
-  stepper_.reset();
-  held_system_.reset();
-  std::erase_if(watches_, [](const Watch& watch) { return watch.kind != Crossing::Kind::event; });
-  if (!contacts_.empty() || !holds_.empty())
-    held_system_ = std::make_unique<ProgramSystem>(law_with(contacts_, holds_));
-  watch_contacts();
-  watch_holds();
+void Course::use_law() {
+  finished_steppers_ = statistics();
+  finished_warnings_ = warnings();
+  watches_.watch_holders();
   make_stepper();
-}
-
-Program Course::law_with(const std::vector<RestingContact>& contacts, const std::vector<EventHold>& holds) const {
-  Program law = group().law;
-  for (const int body : group().bodies) {
-    const int offset = world_.bodies[static_cast<std::size_t>(body)].offset;
-    for (const Vector3& direction : support_of(contacts, offset).blocked) law = hold(law, offset, direction);
-  }
-  for (const EventHold& each : holds)
-    law = hold_on_border(law, world_.events[static_cast<std::size_t>(each.event)].when, each.direction)->law;
-  return law;
-}
-
-void Course::watch_contacts() {
-  for (const int body : group().bodies) {
-    const int offset = world_.bodies[static_cast<std::size_t>(body)].offset;
-    const Support support = support_of(contacts_, offset);
-    auto release = support.release.begin();
-    for (RestingContact& contact : contacts_)
-      if (contact.offset == offset) contact.release = *release++;
-  }
-  for (std::size_t i = 0; i < contacts_.size(); ++i) {
-    const Shape& shape = world_.obstacles[static_cast<std::size_t>(contacts_[i].obstacle)].shape;
-    const ReleaseConditions conditions =
-        release_conditions(group().law, shape, contacts_[i], support_of(contacts_, contacts_[i].offset).blocked);
-    const auto watch = [&](Crossing::Kind kind, const Program& condition) {
-      watches_.push_back({kind, static_cast<int>(i), EventWatch(condition, CrossingDirection::rising)});
-    };
-    watch(Crossing::Kind::pull, conditions.pull);
-    for (const Program& condition : conditions.past_edges) watch(Crossing::Kind::past_edge, condition);
-  }
-}
-
-void Course::watch_holds() {
-  for (std::size_t i = 0; i < holds_.size(); ++i) {
-    std::vector<EventHold> others = holds_;
-    others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
-    const EventHold& hold = holds_[i];
-    const Program& when = world_.events[static_cast<std::size_t>(hold.event)].when;
-    const Program pull = hold_on_border(law_with(contacts_, others), when, hold.direction)->pull;
-    const auto away = hold.side > 0 ? CrossingDirection::rising : CrossingDirection::falling;
-    watches_.push_back({Crossing::Kind::let_go, static_cast<int>(i), EventWatch(pull, away)});
-  }
-}
-
-bool Course::is_held(int event) const {
-  return ranges::any_of(holds_, [event](const EventHold& hold) { return hold.event == event; });
 }
 
 std::vector<EventHold> Course::kept_holds(const Instant& instant) const {
   std::vector<EventHold> kept = instant.holds;
   std::erase_if(kept, [&](const EventHold& hold) {
-    if (!is_held(hold.event)) return false;  // it begins now
+    if (!held_law_.is_held(hold.event)) return false;  // it begins now
     std::array<double, 3> before{}, behind{};
     Evaluator<double> evaluate(hold.border);
     evaluate(instant.time(), instant.before().data(), before.data());
@@ -116,7 +51,7 @@ std::vector<EventHold> Course::kept_holds(const Instant& instant) const {
 
 bool Course::keeps_tolerance() const {
   // steps of parabolas have no error
-  const int degree = free_system_->polynomial_degree();
+  const int degree = held_law_.free().polynomial_degree();
   return world_.method->control == StepControl::adaptive && (degree < 0 || degree > 2);
 }
 
@@ -125,7 +60,7 @@ void Course::make_stepper() {
   options.rtol *= orientations_.tolerance_factor();
   options.atol *= orientations_.tolerance_factor();
   if (scale_) options.component_atol = scale_->tolerances();
-  ProgramSystem& law = held_system_ ? *held_system_ : *free_system_;
+  ProgramSystem& law = held_law_.system();
   branched_ = nullptr;
   if (!chooses_by_state(law.program())) {
     stepper_ = world_.method->make(law, options);
@@ -139,8 +74,7 @@ void Course::make_stepper() {
 
 void Course::enter_piece(double t) {
   if (piece_.is_switch && world_.direction() * (t - piece_.end) >= 0.0) piece_ = switches_.piece(t, world_.duration);
-  free_system_->keep_within(piece_.first, piece_.last);
-  if (held_system_) held_system_->keep_within(piece_.first, piece_.last);
+  held_law_.keep_within(piece_.first, piece_.last);
 }
 
 void Course::pass_switch() {
@@ -197,41 +131,14 @@ void Course::restart(const Instant& instant) {
   const double t = instant.time();
   pass_error(t);
   error_.jump(instant.derivative, instant.further_errors);
-  const auto same = [](const RestingContact& a, const RestingContact& b) {
-    return a.body == b.body && a.obstacle == b.obstacle && a.normal == b.normal && a.point == b.point;
-  };
-  const std::vector<EventHold> held_before = std::exchange(holds_, kept_holds(instant));
-  const bool is_held_anew = !ranges::equal(contacts_, instant.contacts, same) ||
-                            !ranges::equal(held_before, holds_, {}, &EventHold::event, &EventHold::event);
-  if (is_held_anew) {
-    contacts_ = instant.contacts;
-    use_contacts();
-  }
-  restart_watches(instant, is_held_anew);
+  const std::vector<EventHold> held_before = held_law_.holds();
+  const bool is_held_anew = held_law_.take(instant.contacts, kept_holds(instant));
+  if (is_held_anew) use_law();
+  watches_.jump(t, instant.before(), instant.q, segment_, is_held_anew);
+  if (!watches_.empty()) watches_.forget_edges(t, instant.q, free_rate(t, instant.before()), rate(t, instant.q));
   for (const EventHold& hold : held_before)
-    if (!is_held(hold.event)) watches_[place_of(hold.event)].watch.stand_on(t, instant.q.data(), hold.side);
+    if (!held_law_.is_held(hold.event)) watches_.stand_on(hold.event, t, instant.q, hold.side);
   begin(t, instant.q, &instant);
-}
-
-void Course::restart_watches(const Instant& instant, bool is_held_anew) {
-  if (watches_.empty()) return;
-  const double t = instant.time();
-  // of the jump, and of the state that the motion has at a rounded time
-  constexpr double kRoundings = 8.0;
-  const double time = std::abs(t) + std::abs(t - segment_.t0());
-  Eigen::VectorXd rounding(instant.q.size());
-  for (int i = 0; i < rounding.size(); ++i) {
-    const double change = time * std::abs(segment_.derivative(i, t));
-    rounding[i] = kRoundings * kUnitRoundoff * (std::abs(instant.before()[i]) + std::abs(instant.q[i]) + change);
-  }
-  for (Watch& watch : watches_) {
-    const bool begins = is_held_anew && watch.kind != Crossing::Kind::event;
-    const Eigen::VectorXd& before = begins ? instant.q : instant.before();
-    watch.watch.restart(t, before.data(), instant.q.data(), rounding.data());
-    if (watch.kind == Crossing::Kind::past_edge)
-      watch.watch.forget_unless_rising(t, instant.q.data(), free_rate(t, instant.before()).data(),
-                                       rate(t, instant.q).data());
-  }
 }
 
 void Course::pass_error(double t) {
@@ -259,9 +166,8 @@ StepStatus Course::advance() {
     segment_ = std::move(rest_of_step_.front());
     rest_of_step_.pop_front();
   }
-  for (Watch& watch : watches_)
-    if (watch.kind != Crossing::Kind::event || !is_held(watch.index)) watch.watch.search(segment_, segment_.t0());
-  find_next();
+  watches_.search(segment_);
+  next_ = watches_.next(segment_);
   return StepStatus::ok;
 }
 
@@ -288,48 +194,13 @@ void Course::amend_stepper(const Eigen::VectorXd& q) {
   orientations_.was_taken();
 }
 
-void Course::find_next() {
-  next_ = {segment_.t1()};
-  const double direction = segment_.t1() < segment_.t0() ? -1.0 : 1.0;
-  const Watch* first = nullptr;
-  for (const Watch& watch : watches_) {
-    if (!watch.watch.next().found || (watch.kind == Crossing::Kind::event && is_held(watch.index))) continue;
-    const double ahead = direction * (next_.time - watch.watch.next().time);
-    if (ahead < 0.0 || (ahead == 0.0 && first != nullptr)) continue;
-    first = &watch;
-    next_ = {watch.watch.next().time, watch.kind, watch.index, watch.watch.next().error_bound};
-  }
-  if (first == nullptr) return;
-  // of what cannot be told apart in time, the one that stands first is the next
-  const auto is_now = [&](const Watch& watch) {
-    const EventWatch::Crossing& other = watch.watch.next();
-    return other.found && std::abs(other.time - next_.time) <= other.error_bound + first->watch.next().error_bound;
-  };
-  const Watch& next = *ranges::find_if(watches_, is_now);
-  next_.kind = next.kind;
-  next_.index = next.index;
-}
-
-std::size_t Course::place_of(int event) const {
-  return static_cast<std::size_t>(ranges::find(group().events, event) - group().events.begin());
-}
-
-const EventWatch::Crossing& Course::event_crossing(int event) const { return watches_[place_of(event)].watch.next(); }
-
-void Course::take_event(int event) { watches_[place_of(event)].watch.take(); }
-
 void Course::turn_event(int event, const Instant& instant, const Eigen::VectorXd& rate_before) {
-  const double t = instant.time();
-  watches_[place_of(event)].watch.turn(t, instant.before().data(), rate_before.data(), instant.q.data(),
-                                       rate(t, instant.q).data());
+  watches_.turn_event(event, instant.time(), instant.before(), rate_before, instant.q, rate(instant.time(), instant.q));
 }
 
 void Course::pass_event(int event) {
-  EventWatch& passed = watches_[place_of(event)].watch;
-  const double time = passed.next().time;
-  passed.pass();
-  passed.search(segment_, time);
-  find_next();
+  watches_.pass_event(event, segment_);
+  next_ = watches_.next(segment_);
 }
 
 Eigen::VectorXd Course::state(double t) const {
@@ -338,7 +209,7 @@ Eigen::VectorXd Course::state(double t) const {
 
 Eigen::VectorXd Course::free_rate(double t, const Eigen::VectorXd& q) const {
   Eigen::VectorXd dq(q.size());
-  free_system_->rate(t, q.data(), dq.data());
+  held_law_.free().rate(t, q.data(), dq.data());
   return dq;
 }
 
@@ -348,8 +219,7 @@ Eigen::VectorXd Course::rate(double t, const Eigen::VectorXd& q) const {
     branched_->rate(t, q.data(), dq.data());
     return dq;
   }
-  if (!held_system_) return free_rate(t, q);
-  held_system_->rate(t, q.data(), dq.data());
+  held_law_.system().rate(t, q.data(), dq.data());
   return dq;
 }
 

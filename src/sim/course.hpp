@@ -8,13 +8,12 @@
 
 #include "branched_stepper.hpp"
 #include "closed_rotations.hpp"
-#include "event_hold.hpp"
+#include "course_watches.hpp"
+#include "held_course_law.hpp"
 #include "motion_scale.hpp"
 #include "orientation_upkeep.hpp"
 #include "state_error.hpp"
 #include "tolerance_check.hpp"
-#include "trajet/collide/sustain/resting_contact.hpp"
-#include "trajet/event/event_watch.hpp"
 #include "trajet/event/time_switches.hpp"
 #include "trajet/ode/registry.hpp"
 #include "trajet/portable.hpp"
@@ -25,19 +24,6 @@
 namespace trajet {
 
 class Instant;
-
-/// The contacts among several that are of the body at `offset` of a group's state, together.
-Support support_of(const std::vector<RestingContact>& contacts, int offset);
-
-/// Something that happens to a course on its current Segment by its own motion.
-struct Crossing {
-  enum class Kind { segment_end, event, pull, past_edge, let_go };
-  double time = 0.0;
-  Kind kind = Kind::segment_end;
-  int index = 0;  ///< of the event in World::events; of the lasting contact that would pull or has come to its edge, or
-                  ///< of the hold that lets go
-  double error_bound = 0.0;  ///< s
-};
 
 /// One group of a World on its way: its stepper, the Segment it is on, and the crossings of zero it looks out for.
 ///
@@ -61,23 +47,17 @@ class Course {
 
   /// The first crossing on the current Segment behind what was handled; its end if there is none.
   const Crossing& next() const { return next_; }
-  /// What the watch of an event of the group has found.
-  const EventWatch::Crossing& event_crossing(int event) const;
+  const CourseWatches& watches() const { return watches_; }
   /// The event has happened and will change the state: it is not the next one any more.
-  void take_event(int event);
+  void take_event(int event) { watches_.take_event(event); }
   /// The event has changed the state, which the course has taken: its rate was this before.
   void turn_event(int event, const Instant& instant, const Eigen::VectorXd& rate_before);
-  /// Whether the event's own set has turned or stopped what it watches.
-  bool has_turned(int event) const { return watches_[place_of(event)].watch.has_turned(); }
   /// Goes on from an event that changed nothing.
   void pass_event(int event);
 
   const Segment<>& segment() const { return segment_; }
-  const std::vector<RestingContact>& contacts() const { return contacts_; }
-  /// The events at which the motion stays.
-  const std::vector<EventHold>& holds() const { return holds_; }
-  /// The group's law with lasting contacts and holds.
-  Program law_with(const std::vector<RestingContact>& contacts, const std::vector<EventHold>& holds) const;
+  /// The law, and what holds the motion.
+  const HeldCourseLaw& held_law() const { return held_law_; }
   /// The state at a time on the current Segment.
   Eigen::VectorXd state(double t) const;
   /// Whether the state is carried in extended precision.
@@ -113,31 +93,20 @@ class Course {
   double velocity_error(const Eigen::VectorXd& direction, double t);
 
  private:
-  struct Watch {
-    Crossing::Kind kind;
-    int index;
-    EventWatch watch;
-  };
-
   /// Of the current Segment.
   System& law() {
     if (branched_ != nullptr) return branched_->law();
-    return held_system_ ? *held_system_ : *free_system_;
+    return held_law_.system();
   }
-  /// The law with the present lasting contacts and holds, a stepper for it, and watches for their ends.
-  void use_contacts();
-  void watch_contacts();
-  void watch_holds();
   /// Of the holds of an instant, those that it has not kicked off their borders.
   std::vector<EventHold> kept_holds(const Instant& instant) const;
-  bool is_held(int event) const;
+  /// What holds the motion has changed: a stepper for the new law, and watches.
+  void use_law();
   void make_stepper();
   /// Whether the method's steps are as long as a tolerance lets them be.
   bool keeps_tolerance() const;
   /// `instant`: at which the course goes on; null at the start.
   void begin(double t, const Eigen::VectorXd& q, const Instant* instant);
-  /// `is_held_anew`: the lasting contacts have changed.
-  void restart_watches(const Instant& instant, bool is_held_anew);
   /// From time t on, where the law may switch: it stays on its branches up to the next switch.
   void enter_piece(double t);
   /// The step has ended at a switch of the law: goes on behind it.
@@ -148,14 +117,10 @@ class Course {
   void put_orientations_right();
   /// Replaces the stepper's state by one that means the same.
   void amend_stepper(const Eigen::VectorXd& q);
-  /// The place of an event's watch.
-  std::size_t place_of(int event) const;
-  void find_next();
 
   const World& world_;
   int group_;
-  std::unique_ptr<ProgramSystem> free_system_;
-  std::unique_ptr<ProgramSystem> held_system_;  // with contacts or holds only
+  HeldCourseLaw held_law_;
   std::unique_ptr<AnyStepper> stepper_;
   BranchedStepper* branched_ = nullptr;  // the stepper, where the law has choices by the state
   TimeSwitches switches_;
@@ -172,9 +137,7 @@ class Course {
   Eigen::VectorXd end_state_;           // of the step
   double handed_on_ = 0.0;              // s
   bool begins_anew_ = true;             // nothing was handed on since the last start
-  std::vector<RestingContact> contacts_;
-  std::vector<EventHold> holds_;
-  std::vector<Watch> watches_;  // the events', then those of contacts
+  CourseWatches watches_;
   Crossing next_;
 };
 

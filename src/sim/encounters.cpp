@@ -4,6 +4,7 @@
 #include <cmath>
 #include <variant>
 
+#include "corner_search.hpp"
 #include "solid_bounce.hpp"
 #include "swept_box.hpp"
 #include "trajet/collide/detect/contact_table.hpp"
@@ -53,6 +54,8 @@ ContactResult Encounters::first_contact_until(const Pair& pair, const ContactMem
   const World::Body& body = world_.bodies[static_cast<std::size_t>(pair.id.body)];
   const World::Obstacle& obstacle = world_.obstacles[static_cast<std::size_t>(pair.id.obstacle)];
   const auto driven = driven_.find(pair.id.obstacle);
+  if (world_.locate != Locator::polynomial && driven == driven_.end() && has_corners(body.solid))
+    return first_corner_contact(body, obstacle, course.segment(), from, to, world_.locate, memory);
   if (!is_round(body.solid))
     return solids_.first_contact(pair.id.body, pair.id.obstacle, course.segment(),
                                  driven != driven_.end() ? &driven->second : nullptr, from, to, memory);

@@ -26,7 +26,7 @@ void EventHandler::handle(int index, double time) {
   Course& moving = run_.course(index);
   const Crossing crossing = moving.next();
   const World::Event& event = run_.world().events[static_cast<std::size_t>(crossing.index)];
-  const EventWatch::Crossing found = moving.event_crossing(crossing.index);
+  const EventWatch::Crossing found = moving.watches().event_crossing(crossing.index);
   if (found.undecided) return run_.fail(time, "whether event '" + event.name + "' happens cannot be decided");
   if (last_events_[static_cast<std::size_t>(index)].count_at(time) > kMaxEventsAtOnce)
     return run_.fail(time, "event '" + event.name + "' happens again and again at one instant");
@@ -58,7 +58,7 @@ std::string EventHandler::name_of(int event) const {
 
 bool EventHandler::hold(int index, int event, double time, double limit) {
   Course& moving = run_.course(index);
-  const int direction = moving.event_crossing(event).direction;
+  const int direction = moving.watches().event_crossing(event).direction;
   Instant instant(moving, time);
   if (!hold_at_limit(run_.world(), event, direction, instant)) return false;
   run_.recorder().event(run_.world().direction() * (limit - time) > 0.0 ? limit : time, "sticks", direction,
@@ -81,7 +81,8 @@ std::optional<double> EventHandler::limit_of(int index, int event, double time) 
   Accumulation& times = accumulations_[static_cast<std::size_t>(event)];
   times.happen(time);
   const double rounding = kUnitRoundoff * std::abs(time);
-  const bool is_stopped = run_.course(index).has_turned(event) && std::abs(times.interval()) <= kSameTime * rounding;
+  const bool is_stopped =
+      run_.course(index).watches().has_turned(event) && std::abs(times.interval()) <= kSameTime * rounding;
   const std::optional<double> limit = is_stopped ? times.extrapolated_limit() : times.limit(kNearLimit * rounding);
   return limit || !is_stopped ? limit : std::optional(time);
 }

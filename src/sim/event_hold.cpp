@@ -57,7 +57,7 @@ bool hold_at_limit(const World& world, int event_index, int crossing_direction, 
   const World::Event& event = world.events[static_cast<std::size_t>(event_index)];
   const double t = instant.time();
   const Eigen::VectorXd change = change_by_set(event, t, instant.q);
-  const Program law = instant.course().law_with(instant.contacts, instant.holds);
+  const Program law = instant.course().held_law().with(instant.contacts, instant.holds);
   const Eigen::VectorXd direction = acting_part(law, event, t, instant.q, change);
   if (direction.isZero(0.0)) return false;
   const std::optional<HeldLaw> held = hold_on_border(law, event.when, direction);
@@ -77,7 +77,7 @@ bool hold_at_limit(const World& world, int event_index, int crossing_direction, 
   // several holds at once must not let each other go
   std::vector<EventHold> holds = instant.holds;
   holds.push_back({event_index, -crossing_direction, direction, held->border});
-  const Program together = instant.course().law_with(instant.contacts, holds);
+  const Program together = instant.course().held_law().with(instant.contacts, holds);
   for (const EventHold& each : holds) {
     const auto alone =
         hold_on_border(together, world.events[static_cast<std::size_t>(each.event)].when, each.direction);

@@ -6,8 +6,8 @@ namespace trajet {
 
 Instant::Instant(const Course& course, double time)
     : q(course.state(time)),
-      contacts(course.contacts()),
-      holds(course.holds()),
+      contacts(course.held_law().contacts()),
+      holds(course.held_law().holds()),
       derivative(Eigen::MatrixXd::Identity(q.size(), q.size())),
       course_(course),
       time_(time),

@@ -122,7 +122,7 @@ void LastingContacts::record_until(double time) {
     const Coming rest = *coming_.begin();
     coming_.erase(coming_.begin());
     const Course& course = *courses_[static_cast<std::size_t>(body(rest.id.body).group)];
-    const auto contact = ranges::find_if(course.contacts(), [&](const RestingContact& each) {
+    const auto contact = ranges::find_if(course.held_law().contacts(), [&](const RestingContact& each) {
       return PairId{each.body, each.obstacle} == rest.id;
     });
     Impact impact = describe(world_, *contact, ImpactKind::rest, rest.time, course.state(rest.time));
@@ -162,7 +162,7 @@ bool LastingContacts::slides_onto(PairId id, const Course& course, const Eigen::
   const auto rests = [&](const RestingContact& contact) {
     return contact.body == id.body && goes_on(contact, id.obstacle, q);
   };
-  if (ranges::any_of(course.contacts(), rests)) return true;
+  if (ranges::any_of(course.held_law().contacts(), rests)) return true;
   // without a force it slides along a face and does not rest there
   const std::optional<Vector3> up = plane_normal(obstacle(id.obstacle).shape);
   if (!up || obstacle(id.obstacle).drive) return false;

@@ -40,6 +40,11 @@ void MeetingHandler::handle(int course, const Meeting& met) {
     run_.enqueue(course);
     return run_.handle_event(other, time);
   }
+  // what touches where it was looked at first has touched before
+  if (found.contact.status == ContactStatus::graze && time == found.known_at) {
+    run_.meetings().pass(found.id);
+    return pass_on(found);
+  }
   const World& world = run_.world();
   const Surface surface = world.surface_of_bodies(found.id.first, found.id.second);
   if (found.contact.status == ContactStatus::overlapping_at_start) {
@@ -163,8 +168,6 @@ void MeetingHandler::bounce(const Meeting& meeting, const Surface& surface, Impa
       is_below_flight(std::max(0.0, after.speed), -after.acceleration, meeting.contact.memory.tolerance))
     return run_.fail(t, "bodies " + names(meeting) + " come to rest against each other: contact of bodies that lasts " +
                             "is not computed yet");
-  run_.lasting_contacts().release_by_speed(instant_first, meeting.id.first);
-  run_.lasting_contacts().release_by_speed(instant_second, meeting.id.second);
   run_.go_on(first_index, instant_first);
   if (second_index != first_index) run_.go_on(second_index, instant_second);
   ContactMemory memory = rebounded(meeting.contact.memory);

@@ -92,7 +92,7 @@ void Meetings::look_on(int index, double from, double until) {
   for (const int other : *others) {
     add_other(other, index);
     const Meeting::Id id = std::minmax(index, other);
-    search(meetings_.try_emplace(id, Meeting{.id = id}).first->second, from);
+    search(meetings_.try_emplace(id, Meeting{.id = id, .known_at = from}).first->second, from);
     changed_.push_back(other);
   }
 }
@@ -108,7 +108,17 @@ std::optional<std::vector<int>> Meetings::near(int index, const Aabb& box, std::
   return found;
 }
 
+void Meetings::keep(Meeting& meeting, double t) {
+  if (t == meeting.known_at) return;
+  // what is on its way has not happened: they are on the side from which it would come
+  const bool is_met = meeting.contact.status == ContactStatus::hit || meeting.contact.status == ContactStatus::graze;
+  if (is_met) meeting.memory = {.side = meeting.contact.side_before};
+  if (meeting.contact.status == ContactStatus::separated) meeting.memory = meeting.contact.memory;
+  meeting.known_at = t;
+}
+
 void Meetings::search(Meeting& meeting, double from) {
+  keep(meeting, from);
   const auto [first, second] = meeting.id;
   const double to = direction_ * std::min(direction_ * window(first).to, direction_ * window(second).to);
   ++searches_;
@@ -117,7 +127,6 @@ void Meetings::search(Meeting& meeting, double from) {
   meeting.contact =
       are_round ? first_contact_of_balls(body(first), a, body(second), b, {from, to}, world_.locate, meeting.memory)
                 : solids_.first_contact_of_bodies(first, a, second, b, from, to, meeting.memory);
-  if (meeting.contact.status == ContactStatus::separated) meeting.memory = meeting.contact.memory;
 }
 
 void Meetings::add_other(int index, int other) {
@@ -143,20 +152,22 @@ std::optional<double> Meetings::looked_to(int index) const {
   return window.to;
 }
 
-void Meetings::leave(int index) {
+void Meetings::leave(int index, double t) {
   close(index);
   for (const int other : window(index).others) {
     Meeting& meeting = meetings_.find(std::minmax(index, other))->second;
-    // what was on its way has not happened: where they are now, they are on the side that it would have come from
-    const bool is_met = meeting.contact.status == ContactStatus::hit || meeting.contact.status == ContactStatus::graze;
-    if (is_met) meeting.memory.side = meeting.contact.side_before;
-    meeting.contact = {};
+    keep(meeting, t);
+    meeting.contact = {.memory = meeting.memory};
     changed_.push_back(other);
   }
 }
 
 void Meetings::forget(int index) {
-  for (const int other : window(index).others) meetings_.find(std::minmax(index, other))->second.memory = {};
+  for (const int other : window(index).others) {
+    Meeting& meeting = meetings_.find(std::minmax(index, other))->second;
+    meeting.memory = {};
+    meeting.contact = {};
+  }
 }
 
 const Meeting* Meetings::first(int index) const {
@@ -193,7 +204,8 @@ std::vector<int> Meetings::take_changed() {
 void Meetings::pass(const Meeting::Id& id) {
   Meeting& meeting = meetings_.find(id)->second;
   meeting.memory = meeting.contact.memory;
-  search(meeting, meeting.contact.time);
+  meeting.known_at = meeting.contact.time;
+  search(meeting, meeting.known_at);
   changed_.insert(changed_.end(), {id.first, id.second});
 }
 
@@ -215,6 +227,7 @@ bool Meetings::stay_in_contact(const Meeting::Id& id, double height) {
     memory.tolerance = std::max(memory.tolerance, kMore * meeting.memory.tolerance);
   if (memory.tolerance > 0.5 * height) return false;
   meeting.memory = memory;
+  meeting.known_at = time;
   search(meeting, time);
   changed_.insert(changed_.end(), {id.first, id.second});
   return true;

@@ -18,8 +18,9 @@ namespace trajet {
 struct Meeting {
   using Id = std::pair<int, int>;
   Id id{};
-  ContactMemory memory{};   ///< what is known of them where they were searched last
-  ContactResult contact{};  ///< the next one, of the first body with the second, within what was searched
+  ContactMemory memory{};   ///< what is known of them at `known_at`
+  double known_at = 0.0;    ///< s
+  ContactResult contact{};  ///< the next one behind it, of the first body with the second, within what was searched
 };
 
 /// Looks out for the contacts of the bodies of a run with each other, on what their current Segments have in common.
@@ -39,8 +40,8 @@ class Meetings {
   void look_on(int body, double from, double until);
   /// How far was looked for the body; nothing where that is the end of its Segment.
   std::optional<double> looked_to(int body) const;
-  /// The motion of the body ends here.
-  void leave(int body);
+  /// The motion of the body ends at time t: what was found of it behind that is void.
+  void leave(int body, double t);
   /// The body was moved by a jump: nothing is known of it any more.
   void forget(int body);
 
@@ -78,6 +79,8 @@ class Meetings {
   void close(int body);
   /// The bodies that meet `body` and whose boxes overlap one, unless they are more than `most`.
   std::optional<std::vector<int>> near(int body, const Aabb& box, std::size_t most) const;
+  /// Nothing happens to a pair up to time t: keeps what is known of it then.
+  static void keep(Meeting& meeting, double t);
   /// Searches a pair from `from` on, as far as both windows reach.
   void search(Meeting& meeting, double from);
   void add_other(int body, int other);

@@ -1,0 +1,60 @@
+#include "held_course_law.hpp"
+
+#include <utility>
+
+#include "trajet/portable.hpp"
+
+namespace trajet {
+
+Support support_of(const std::vector<RestingContact>& contacts, int offset) {
+  std::vector<Vector3> normals;
+  for (const RestingContact& contact : contacts)
+    if (contact.offset == offset) normals.push_back(contact.normal);
+  return support(normals);
+}
+
+HeldCourseLaw::HeldCourseLaw(const World& world, int group)
+    : world_(world), group_(group), free_(std::make_unique<ProgramSystem>(this->group().law)) {}
+
+bool HeldCourseLaw::take(const std::vector<RestingContact>& contacts, std::vector<EventHold> holds) {
+  const auto same = [](const RestingContact& a, const RestingContact& b) {
+    return a.body == b.body && a.obstacle == b.obstacle && a.normal == b.normal && a.point == b.point;
+  };
+  const bool are_others = !ranges::equal(contacts_, contacts, same) ||
+                          !ranges::equal(holds_, holds, {}, &EventHold::event, &EventHold::event);
+  holds_ = std::move(holds);
+  if (!are_others) return false;
+  contacts_ = contacts;
+  for (const int body : group().bodies) {
+    const int offset = world_.bodies[static_cast<std::size_t>(body)].offset;
+    const Support support = support_of(contacts_, offset);
+    auto release = support.release.begin();
+    for (RestingContact& contact : contacts_)
+      if (contact.offset == offset) contact.release = *release++;
+  }
+  held_.reset();
+  if (!contacts_.empty() || !holds_.empty()) held_ = std::make_unique<ProgramSystem>(with(contacts_, holds_));
+  return true;
+}
+
+bool HeldCourseLaw::is_held(int event) const {
+  return ranges::any_of(holds_, [event](const EventHold& hold) { return hold.event == event; });
+}
+
+Program HeldCourseLaw::with(const std::vector<RestingContact>& contacts, const std::vector<EventHold>& holds) const {
+  Program law = group().law;
+  for (const int body : group().bodies) {
+    const int offset = world_.bodies[static_cast<std::size_t>(body)].offset;
+    for (const Vector3& direction : support_of(contacts, offset).blocked) law = hold(law, offset, direction);
+  }
+  for (const EventHold& each : holds)
+    law = hold_on_border(law, world_.events[static_cast<std::size_t>(each.event)].when, each.direction)->law;
+  return law;
+}
+
+void HeldCourseLaw::keep_within(double first, double last) {
+  free_->keep_within(first, last);
+  if (held_) held_->keep_within(first, last);
+}
+
+}  // namespace trajet
