@@ -10,7 +10,7 @@
 namespace trajet {
 namespace {
 
-/// A window is as long as it meets no more.
+/// A window is as long as it meets no more than that, or than so many more as it begins among.
 constexpr std::size_t kFew = 8;
 
 /// Whether two bodies may meet at all: the cheap part of the answer.
@@ -62,9 +62,8 @@ void Meetings::look_on(int index, double from, double until) {
     const auto box_until = [&](double end) { return swept_box(body(index), segment, from, end); };
     window.box = box_until(to);
     others = near(index, window.box, kFew);
-    // among bodies where it is already, however short the window
-    const std::size_t start_count = others ? 0 : near(index, box_until(from), world_.bodies.size())->size();
-    const std::size_t most = start_count > kFew ? start_count + kFew : kFew;
+    // more than it is among already, however short the window
+    const std::size_t most = others ? kFew : near(index, box_until(from), world_.bodies.size())->size() + kFew;
     while (!others) {
       constexpr double kShortest = 1e-12;  // of the time: no shorter window meets less
       const double middle = from + 0.5 * (to - from);

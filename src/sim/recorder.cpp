@@ -101,6 +101,8 @@ void Recorder::motion(Course& course, double t) {
 void Recorder::put_on_clock(Impact& impact) const {
   impact.time = world_.epoch + impact.elapsed;
   if (world_.epoch != 0.0) impact.time_error_bound += kUnitRoundoff * std::abs(impact.time);
+  // all that is known of it then is that it is in the run
+  if (!(impact.time_error_bound <= std::abs(world_.duration))) impact.time_error_bound = std::abs(world_.duration);
 }
 
 void Recorder::event(double time, const std::string& name, int direction, const std::string& law) {
@@ -115,7 +117,8 @@ void Recorder::impact(Impact impact) {
     const double apart = std::abs(impact.elapsed - last.elapsed);
     // a meeting of bodies that others cause at once is none: its handler knows
     const bool is_meeting = impact.partner || last.partner;
-    const bool is_tie = !is_meeting && impact.with != last.with && apart <= impact.time_error_bound + last.time_error_bound;
+    const bool is_tie =
+        !is_meeting && impact.with != last.with && apart <= impact.time_error_bound + last.time_error_bound;
     if (is_tie && impact.kind == ImpactKind::hit && last.kind == ImpactKind::hit)
       warn_of_tie(last, impact.body, impact.with);
   }
@@ -139,6 +142,8 @@ void Recorder::unresolved(double time, const std::string& body, const std::strin
 }
 
 void Recorder::warn_of_tie(const Impact& impact, const std::string& body, const std::string& with) {
+  constexpr int kMost = 5;
+  if (++tie_count_ > kMost) return warn("further impacts are closer in time than their error bounds");
   warn("impacts of '" + impact.body + "' with '" + impact.with + "' and of '" + body + "' with '" + with +
        "' are closer in time than their error bounds: which is first is decided by rounding");
 }

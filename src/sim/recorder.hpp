@@ -73,6 +73,7 @@ class Recorder {
   TimeLimit time_limit_;
   double direction_;
   RunResult result_;
+  int tie_count_ = 0;
   long next_sample_ = 0;
   std::optional<double> last_sample_;  // s, of all bodies
   std::optional<Impact> last_impact_;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <unsupported/Eigen/MatrixFunctions>
 
@@ -12,6 +13,8 @@ namespace {
 
 /// So many steps are kept before they are worked off.
 constexpr std::size_t kMostOpenSteps = 64;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 Eigen::MatrixXd jacobian(System& law, double t, const Eigen::VectorXd& q) {
   Eigen::MatrixXd dg_dq(q.size(), q.size());
@@ -86,16 +89,24 @@ void StateError::settle() {
     add(step.error);
   }
   open_.clear();
+  check();
+}
+
+void StateError::check() {
+  if (is_infinite_ || generators_.allFinite()) return;
+  is_infinite_ = true;
+  generators_.resize(generators_.rows(), 0);
 }
 
 void StateError::jump(const Eigen::MatrixXd& derivative, const Eigen::MatrixXd& further) {
   settle();
   generators_ = derivative * generators_;
-  if (further.cols() == 0) return;
+  if (further.cols() == 0) return check();
   const Eigen::Index before = generators_.cols();
   generators_.conservativeResize(Eigen::NoChange, before + further.cols());
   generators_.rightCols(further.cols()) = further;
   if (generators_.cols() > 4 * generators_.rows()) reduce();
+  check();
 }
 
 Eigen::MatrixXd StateError::columns(System& law, const Segment<>& segment, double t) {
@@ -106,6 +117,7 @@ Eigen::MatrixXd StateError::columns(System& law, const Segment<>& segment, doubl
   all.leftCols(before) = generators_;
   if (before > 0 && part.duration != 0.0) all.leftCols(before) = transition(part) * generators_;
   all.rightCols(n) = part.error.asDiagonal();
+  if (is_infinite_) all.setConstant(kInfinity);
   return all;
 }
 
@@ -138,6 +150,7 @@ void StateError::reduce() {
 
 Eigen::VectorXd StateError::bound(System& law, const Segment<>& segment, double t) {
   settle();
+  if (is_infinite_) return Eigen::VectorXd::Constant(generators_.rows(), kInfinity);
   const Step part = step_until(law, segment, t);
   if (generators_.cols() == 0) return part.error;
   const Eigen::MatrixXd moved = part.duration != 0.0 ? Eigen::MatrixXd(transition(part) * generators_) : generators_;
@@ -146,6 +159,7 @@ Eigen::VectorXd StateError::bound(System& law, const Segment<>& segment, double 
 
 double StateError::bound_along(const Eigen::VectorXd& direction, System& law, const Segment<>& segment, double t) {
   settle();
+  if (is_infinite_) return kInfinity;
   const Step part = step_until(law, segment, t);
   const double own = direction.cwiseAbs().dot(part.error);
   if (generators_.cols() == 0) return own;

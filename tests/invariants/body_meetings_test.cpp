@@ -6,12 +6,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <random>
 #include <sstream>
 
 #include "scene_run.hpp"
 #include "trajet/law/evaluate.hpp"
+#include "trajet/scene/world.hpp"
 #include "trajet/sim/run_observer.hpp"
 
 namespace trajet {
@@ -131,7 +133,7 @@ TEST(BodyMeetings, AGasKeepsItsEnergyAndNoTwoOverlap) {
   ASSERT_EQ(result.status, RunStatus::finished) << result.failure;
   const auto between = std::count_if(result.impacts.begin(), result.impacts.end(),
                                      [](const Impact& impact) { return impact.partner.has_value(); });
-  EXPECT_GT(between, 500);
+  EXPECT_GT(between, 200);
   for (const Sample& sample : samples.all) {
     double sum = 0.0;
     for (std::size_t i = 0; i < balls.size(); ++i) {
@@ -145,6 +147,24 @@ TEST(BodyMeetings, AGasKeepsItsEnergyAndNoTwoOverlap) {
     // each impact rounds the velocities that it changes
     EXPECT_NEAR(sum, energy, 1e-13 * energy * static_cast<double>(result.impacts.size()));
   }
+}
+
+TEST(BodyMeetings, ErrorsThatGrowBeyondAllNumbersAreToldAsSuch) {
+  // three balls in a small box: each impact makes errors some times larger, some hundred make 1e-16 more than 1e308
+  const double duration = 400.0;
+  std::string text = "[time]\nend = 400\nsample = 400\n" + room(1.0);
+  text += BallOf{"a", 0.2, 1.0, {0.3, 0.3, 0.3}, {1, 0.3, 0.1}}.text();
+  text += BallOf{"b", 0.2, 2.0, {0.7, 0.7, 0.3}, {-0.3, 1, 0.2}}.text();
+  text += BallOf{"c", 0.2, 3.0, {0.3, 0.7, 0.7}, {0.1, -0.4, 1}}.text();
+  const RunResult result = run_text(text);
+  ASSERT_EQ(result.status, RunStatus::finished) << result.failure;
+  ASSERT_GT(result.impacts.size(), 1000u);
+  EXPECT_LT(result.impacts[3].time_error_bound, 1e-10);
+  EXPECT_EQ(result.impacts.back().time_error_bound, duration);
+  EXPECT_EQ(*result.final.bodies[0].position_error_bound, std::numeric_limits<double>::infinity());
+  // ties are told of, but not of each of a thousand
+  EXPECT_FALSE(result.warnings.empty());
+  EXPECT_LT(result.warnings.size(), 10u);
 }
 
 TEST(BodyMeetings, OfACradleTheLastBallTakesTheVelocity) {
@@ -175,10 +195,10 @@ TEST(BodyMeetings, TheOrderInTheFileDoesNotMatter) {
   std::vector<int> order{0, 1, 2, 3};
   std::optional<RunResult> known;
   do {
-    std::string text = "[time]\nend = 4\n" + room(4.0);
+    std::string text = "[time]\nend = 4\n" + room(6.0);
     for (const int i : order) {
       BallOf ball = balls[static_cast<std::size_t>(i)];
-      ball.position += Vector3(0, 2, 0);
+      ball.position += Vector3(1.5, 3, 0.5);
       text += ball.text();
     }
     const RunResult result = run_text(text);
