@@ -312,6 +312,13 @@ TEST(Figure, OfAComparisonNamesWhatHasNoResult) {
       words(figure({"compare", kExamples + "heavy_top.toml", "--methods", "taylor,rk4"}, "no result: "));
   EXPECT_NE(text.find("rk4: no result"), std::string::npos) << text;
   EXPECT_NE(text.find("rk4: no result: whether event"), std::string::npos) << "the reason, at the foot";
+  // a law of many numbers: its reason fits into the picture
+  const std::string wordy = figure({"compare", kExamples + "frisbee.toml", "--methods", "taylor,rk4"}, "no result: ");
+  for (std::size_t at = wordy.find("<text"); at != std::string::npos; at = wordy.find("<text", at + 1)) {
+    const std::string line = words(wordy.substr(at, wordy.find("</text>", at) - at));
+    EXPECT_LT(line.size(), 140u) << line;  // what fits into the picture
+  }
+  EXPECT_NE(words(wordy).find(" …"), std::string::npos);
 }
 
 TEST(Figure, OfAComparisonEndsWhereTheReferenceMeetsTheGround) {
