@@ -11,15 +11,20 @@ namespace trajet::detail {
 namespace {
 
 constexpr std::size_t kMostNotes = 8;
-/// Characters of a line.
-constexpr std::size_t kLongestLine = 150;
+/// Characters of a line, and lines of a note: what is longer is told by the table of the comparison.
+constexpr std::size_t kLongestLine = 130;
+constexpr int kMostLines = 3;
 
 /// Adds a text as lines that break at blanks.
 void add_lines(std::vector<std::string>& lines, std::string text) {
-  while (text.size() > kLongestLine) {
+  for (int count = 1; text.size() > kLongestLine; ++count) {
     const std::size_t blank = text.rfind(' ', kLongestLine);
     if (blank == std::string::npos || text.find_first_not_of(' ') > blank) break;
     lines.push_back(text.substr(0, blank));
+    if (count == kMostLines) {
+      lines.back() += " …";
+      return;
+    }
     text = "    " + text.substr(blank + 1);
   }
   lines.push_back(std::move(text));

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "driven_outlines.hpp"
 #include "obstacle_faces.hpp"
 
 #include "trajet/portable.hpp"
@@ -21,6 +22,7 @@ constexpr std::size_t kMostTrails = 4;
 constexpr double kRounding = 1e-12;
 
 std::string line_style(Color color) { return fmt::format("lines lw 2.4 lc '{}'", color_text(line_color(color))); }
+constexpr const char* kOutlineStyle = "lines lw 0.8 lc '#a8a8a8'";
 constexpr const char* kImpactStyle = "points pt 6 ps 1.2 lw 2 lc '#202020'";
 
 bool is_clear(const std::vector<Vector3>& way) {
@@ -42,15 +44,20 @@ Color body_color(const World& world, std::size_t body) {
 
 PathPanel::PathPanel(const RunResult& result, const MotionRecord& record, const std::vector<Curve>& curves)
     : result_(result), record_(record), world_(record.world()), curves_(curves) {
-  Eigen::AlignedBox3d box;
-  for (const World::Body& body : world_.bodies)
-    for (const Vector3& point : path(body)) box.extend(point);
+  const Eigen::AlignedBox3d box = motion_box();
   for (int i = 0; i < 3 && !box.isEmpty(); ++i)
     if (box.sizes()[i] > kRounding * std::max(box.min().cwiseAbs().maxCoeff(), box.max().cwiseAbs().maxCoeff()))
       kept_.push_back(i);
   if (world_.up == UpAxis::y && kept_ == std::vector{1, 2}) kept_ = {2, 1};  // y upward
   is_in_space_ = kept_.size() == 3 ||
                  ranges::any_of(world_.bodies, [&](const World::Body& body) { return is_turning_solid(body); });
+}
+
+Eigen::AlignedBox3d PathPanel::motion_box() const {
+  Eigen::AlignedBox3d box;
+  for (const World::Body& body : world_.bodies)
+    for (const Vector3& point : path(body)) box.extend(point);
+  return box;
 }
 
 std::vector<Vector3> PathPanel::path(const World::Body& body) const {
@@ -134,13 +141,15 @@ SpacePanel PathPanel::space_panel() const {
     for (const Impact& impact : result_.impacts) points.push_back(impact.position);
     panel.add_path(std::move(points), kImpactStyle, "impact");
   }
+  for (std::vector<Vector3>& outline : driven_outlines(world_, result_.elapsed, Vector3::UnitZ(), motion_box()))
+    panel.add_path(std::move(outline), kOutlineStyle, "");
   panel.add_obstacles(world_.obstacles);
   return panel;
 }
 
 std::string PathPanel::plane_script(const Frame& frame) const {
   const int across = 3 - kept_[0] - kept_[1];
-  Eigen::AlignedBox3d motion;
+  Eigen::AlignedBox3d motion = motion_box();
   std::string data, lines;
   const auto add = [&](const std::string& name, const std::vector<Vector3>& points, const std::string& style) {
     std::vector<std::vector<double>> rows;
@@ -148,8 +157,9 @@ std::string PathPanel::plane_script(const Frame& frame) const {
     data += data_block(name, rows);
     lines += fmt::format("{}${} with {}", lines.empty() ? "" : ", ", name, style);
   };
-  for (const World::Body& body : world_.bodies)
-    for (const Vector3& point : path(body)) motion.extend(point);
+  const auto outlines = driven_outlines(world_, result_.elapsed, Vector3::Unit(across), motion);
+  for (const std::vector<Vector3>& outline : outlines)
+    for (const Vector3& corner : outline) motion.extend(corner);
   const Eigen::AlignedBox3d shown = with_obstacles(motion, world_.obstacles);
   Eigen::AlignedBox3d box = shown;
   std::array<Range, 2> ranges;
@@ -170,6 +180,8 @@ std::string PathPanel::plane_script(const Frame& frame) const {
           fmt::format("lines lw 3 lc '{}' notitle", color_text(line_color(obstacle_color(world_.obstacles[o])))));
     }
   }
+  for (std::size_t i = 0; i < outlines.size(); ++i)
+    add(fmt::format("outline{}", i), outlines[i], std::string(kOutlineStyle) + " notitle");
   for (std::size_t b = 0; b < world_.bodies.size(); ++b)
     add(fmt::format("path{}", b), path(world_.bodies[b]),
         line_style(body_color(world_, b)) +

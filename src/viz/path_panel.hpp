@@ -36,6 +36,8 @@ class PathPanel {
 
  private:
   const Curve& curve(const World::Body& body) const { return curves_[static_cast<std::size_t>(body.group)]; }
+  /// Around the ways of all bodies.
+  Eigen::AlignedBox3d motion_box() const;
   std::vector<Vector3> path(const World::Body& body) const;
   std::vector<Vector3> way_of(const World::Body& body, const World::Point& point) const;
   /// In the world, at the end.

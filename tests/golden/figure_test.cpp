@@ -307,11 +307,35 @@ acceleration = "-100*r"
   for (const double number : numbers(svg)) EXPECT_LT(std::abs(number), 1000.0);
 }
 
+TEST(Figure, ShowsWhereWhatIsDrivenComes) {
+  const TemporaryFolder folder;
+  const auto lines = [&](const std::string& motion, const std::string& body) {
+    return count(figure({"run", folder.write("s.toml", "[time]\nend = 2\n[[body]]\nname = \"p\"\nvelocity = " + body +
+                                                           "\n[[obstacle]]\nname = \"lift\"\nshape = \"box\"\n"
+                                                           "center = [0, 0, 5]\nsize = [1, 1, 1]\n" +
+                                                           motion)}),
+                 "stroke='rgb(168, 168, 168)'");
+  };
+  constexpr int kTimes = 4, kSides = 6;
+  for (const std::string body : {"[1, 0, 2]", "[1, 1, 2]"}) {  // in a plane, and in space
+    EXPECT_EQ(lines("velocity = [2, 0, 0]\n", body), kTimes * kSides);
+    EXPECT_EQ(lines("velocity = [3, 0, 0]\n", body), (kTimes - 1) * kSides);  // the last is farther off than 4 m
+    EXPECT_EQ(lines("", body), 0);
+  }
+}
+
 TEST(Figure, OfAComparisonNamesWhatHasNoResult) {
   const std::string text =
       words(figure({"compare", kExamples + "heavy_top.toml", "--methods", "taylor,rk4"}, "no result: "));
   EXPECT_NE(text.find("rk4: no result"), std::string::npos) << text;
   EXPECT_NE(text.find("rk4: no result: whether event"), std::string::npos) << "the reason, at the foot";
+  // a law of many numbers: its reason fits into the picture
+  const std::string wordy = figure({"compare", kExamples + "frisbee.toml", "--methods", "taylor,rk4"}, "no result: ");
+  for (std::size_t at = wordy.find("<text"); at != std::string::npos; at = wordy.find("<text", at + 1)) {
+    const std::string line = words(wordy.substr(at, wordy.find("</text>", at) - at));
+    EXPECT_LT(line.size(), 140u) << line;  // what fits into the picture
+  }
+  EXPECT_NE(words(wordy).find(" …"), std::string::npos);
 }
 
 TEST(Figure, OfAComparisonEndsWhereTheReferenceMeetsTheGround) {

@@ -8,6 +8,10 @@ import { vector } from "./shapes";
 import { cssColor } from "./theme";
 import { isSeenAlongRight, type ViewFrame } from "./view_frame";
 
+/** Faces that meet at more than so many degrees have an edge between them. */
+const kEdge = 20;
+const kEdgeOfGround = 60;
+
 /** A plane with a grid on it, in the world. `isSolid`: it is an obstacle, not a scale only. */
 export interface Ground {
   point: THREE.Vector3;
@@ -106,7 +110,9 @@ export class Scenery {
     const center: Vector =
       shape.kind === "triangle" ? shape.corners[0] : shape.kind === "mesh" ? shape.vertices[0] : shape.center;
     mesh.position.copy(this.frame.toView(center));
-    const outline = new THREE.LineSegments(new THREE.EdgesGeometry(geometry, 20), this.edges);
+    // what is open is a ground: the facets of its slopes are no edges
+    const isGround = shape.kind === "mesh" && !shape.closed;
+    const outline = new THREE.LineSegments(new THREE.EdgesGeometry(geometry, isGround ? kEdgeOfGround : kEdge), this.edges);
     mesh.add(outline);
     mesh.name = name;
     this.solids.push(mesh);

@@ -283,6 +283,23 @@ describe("the camera", () => {
   });
 });
 
+describe("the edges of obstacles", () => {
+  it("are those of solids, and the rim of a ground: the facets of its slopes are none", () => {
+    const frame = new ViewFrame(new THREE.Box3(new THREE.Vector3(0, 0, 0), new THREE.Vector3(2, 1, 1)));
+    const edges = (height: number, closed: boolean) => {
+      const vertices: [number, number, number][] = [[0, 0, 0], [1, 0, height], [2, 0, 0], [0, 1, 0], [1, 1, height], [2, 1, 0]];
+      const triangles: [number, number, number][] = [[0, 1, 4], [0, 4, 3], [1, 2, 5], [1, 5, 4]];
+      const { solids } = new Scenery(frame, [{ name: "roof", shape: { kind: "mesh", vertices, triangles, closed } }]);
+      return (solids[0].children[0] as THREE.LineSegments).geometry.getAttribute("position").count / 2;
+    };
+    const [gentle, steep] = [0.3, 2]; // facets that meet at 33 and at 127 degrees
+    const rim = 6;
+    expect(edges(gentle, false)).toBe(rim);
+    expect(edges(gentle, true)).toBe(rim + 1);
+    expect(edges(steep, false)).toBe(rim + 1);
+  });
+});
+
 describe("a scene whose y axis points up", () => {
   // a shot along x
   const box = new THREE.Box3(new THREE.Vector3(-1, 0, -2), new THREE.Vector3(9, 4, 2));

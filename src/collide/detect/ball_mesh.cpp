@@ -46,15 +46,15 @@ class MeshGap {
       box.upper[i] = range.upper;
     }
     const bool is_short = (box.upper - box.lower).maxCoeff() <= surface_.spacing;
-    near_.clear();
-    const bool are_all = surface_.tree.visit_overlapping(grown(box, reach()), [this, is_short](int triangle) {
-      near_.push_back(triangle);
-      return is_short || near_.size() <= kFew;
+    std::vector<int> near;
+    const bool are_all = surface_.tree.visit_overlapping(grown(box, reach()), [&near, is_short](int triangle) {
+      near.push_back(triangle);
+      return is_short || near.size() <= kFew;
     });
     if (!are_all) return undecided();
     IntervalJet least(Interval{cap_});
     std::vector<IntervalJet> all{least};
-    for (const int triangle : near_)
+    for (const int triangle : near)
       all.push_back(gap(triangle, [=](const detail::Coordinate& x) { return x.between(from, to); }));
     return hull_of_least(all);
   }
@@ -64,15 +64,15 @@ class MeshGap {
 
   FunctionSample at(double tau) const {
     const Vector3 position = path_.value(tau);
-    near_.clear();
-    surface_.tree.visit_overlapping(grown({position, position}, reach()), [this](int triangle) {
-      near_.push_back(triangle);
+    std::vector<int> near;
+    surface_.tree.visit_overlapping(grown({position, position}, reach()), [&near](int triangle) {
+      near.push_back(triangle);
       return true;
     });
-    ranges::sort(near_);
+    ranges::sort(near);
     const double rounding = 3.0 * kUnitRoundoff * (position.lpNorm<1>() + radius_);
     FunctionSample least{{cap_, 0.0, 0.0}, rounding, std::max(3.0 * rounding, touch_tolerance_)};
-    for (const int triangle : near_) {
+    for (const int triangle : near) {
       const IntervalJet f = gap(triangle, [=](const detail::Coordinate& x) { return x.at(tau); });
       if (!(median(f[0]) < least.jet.value)) continue;
       const double error = 0.5 * width(f[0]);
@@ -123,7 +123,6 @@ class MeshGap {
   double begin_;
   double end_;
   double touch_tolerance_;
-  mutable std::vector<int> near_;  // scratch
 };
 
 }  // namespace
