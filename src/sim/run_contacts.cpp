@@ -1,4 +1,5 @@
 #include <cmath>
+#include <utility>
 
 #include "extended_bounce.hpp"
 #include "impact_record.hpp"
@@ -213,6 +214,12 @@ void RunLoop::bounce_off(int index, Pair pair, Impact impact) {
       return enqueue(index);
     }
   }
+  const auto rests = [&] {
+    fail(t, "body '" + body.name + "' comes to rest on obstacle '" + obstacle.name +
+                "': contact that lasts is not computed yet for solids that are no points or balls");
+  };
+  Bounce& last = last_bounces_[static_cast<std::size_t>(pair.id.body)];
+  const Bounce flight = std::exchange(last, Bounce{pair.id.obstacle, t, pair.contact.point});
   recorder_.sample(t, pair.id.body, SamplePhase::before);
   const auto end = [&](const std::string& reason) {
     recorder_.impact(impact);
@@ -226,14 +233,24 @@ void RunLoop::bounce_off(int index, Pair pair, Impact impact) {
   const double speed = std::max(0.0, -before.speed);
   const double restitution = obstacle.restitution.at(speed);
   if (!(restitution >= 0.0 && restitution <= 1.0)) return fail(t, describe_restitution(obstacle, restitution, speed));
+  // how curved surfaces are pulled together shows in how long the last flight from here was: u/g = dt/2
+  constexpr double kSamePlace = 1e-3;  // of the size
+  const double tolerance = pair.contact.memory.tolerance, duration = t - flight.time;
+  const double moved = (pair.contact.point - flight.point).norm();
+  const bool is_again =
+      flight.obstacle == pair.id.obstacle &&
+      moved <= kSamePlace * bounding_radius(body.solid) + 2.0 * std::abs(duration) * impact.velocity_before.norm();
+  const double pull = before.speed > 0.0 ? std::abs(pair.contact.gap_curvature) : 2.0 * speed / std::abs(duration);
+  const bool is_low = restitution < 1.0 ? is_below_flight(std::abs(before.speed), pull, tolerance)
+                                        : is_lying(std::abs(before.speed), pull, tolerance);
+  if (is_again && is_low) return rests();
   bounce_solid(world_, pair, surface, restitution, mass_of(body, t, instant.q), instant, impact);
   recorder_.impact(impact);
   warn_of_hidden_ties(world_, encounters_, pair, impact, moving, recorder_);
   const NormalMotion after = normal_motion(world_, pair, surface, instant.q, instant.rate());
   if (after.acceleration <= 0.0 &&
       is_below_flight(std::max(0.0, after.speed), -after.acceleration, pair.contact.memory.tolerance))
-    return fail(t, "body '" + body.name + "' comes to rest on obstacle '" + obstacle.name +
-                       "': contact that lasts is not computed yet for solids that are no points or balls");
+    return rests();
   instant.memories.insert(instant.memories.begin(), {pair.id, rebounded(pair.contact.memory)});
   go_on(index, instant);
   recorder_.sample(t, pair.id.body, SamplePhase::after);

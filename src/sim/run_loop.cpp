@@ -42,6 +42,7 @@ RunLoop::RunLoop(const World& world, RunObserver& observer)
       recorder_(world, courses_, observer),
       lasting_contacts_(world, courses_, encounters_, recorder_),
       last_impacts_(world.bodies.size()),
+      last_bounces_(world.bodies.size()),
       last_events_(world.groups.size()),
       accumulations_(world.events.size()) {}
 

@@ -113,6 +113,13 @@ class RunLoop {
     }
   };
   std::vector<AtOneInstant> last_impacts_;   // of each body
+  /// A bounce of a body that is no point or ball.
+  struct Bounce {
+    int obstacle = -1;
+    double time = 0.0;                // s
+    Vector3 point = Vector3::Zero();  // m
+  };
+  std::vector<Bounce> last_bounces_;  // of each body
   std::vector<AtOneInstant> last_events_;    // of each course
   std::vector<Accumulation> accumulations_;  // of each event that sets
   /// An event has asked for the end of the run.

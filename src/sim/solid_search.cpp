@@ -109,22 +109,35 @@ ContactResult SolidSearch::search(const Stretch& stretch, double from, double to
 
 ContactResult SolidSearch::search_pieces(const Stretch& stretch, std::span<const int> near, double from, double to,
                                          const ContactMemory& memory) {
-  const bool is_one = stretch.body.cores.size() == 1 && stretch.obstacle.cores.size() == 1;
-  TurningMemory known{memory.axis, memory.contact_time, memory.tolerance};
   ContactResult result{.memory = memory};
+  result.memory.side = 1;
   double end = to;
-  for (const ConvexCore& body : stretch.body.cores)
-    for (const int index : near) {
-      const TurningContact found =
-          trajet::first_contact(body, stretch.body_path, stretch.obstacle.cores[static_cast<std::size_t>(index)],
-                                stretch.obstacle_path, from, end, known);
-      if (is_one) result.memory.axis = found.memory.axis;
-      if (found.status == ContactStatus::separated) continue;
+  for (int i = 0; i < static_cast<int>(stretch.body.cores.size()); ++i)
+    for (const int j : near) {
+      // the axis belongs to one pair of pieces
+      const bool is_known = i == memory.body_piece && j == memory.obstacle_piece;
+      const TurningMemory known{.axis = is_known ? memory.axis : std::nullopt,
+                                .contact_time = memory.contact_time,
+                                .tolerance = memory.tolerance,
+                                .is_apart = memory.side > 0,
+                                .direction = -memory.normal};
+      const TurningContact found = trajet::first_contact(
+          stretch.body.cores[static_cast<std::size_t>(i)], stretch.body_path,
+          stretch.obstacle.cores[static_cast<std::size_t>(j)], stretch.obstacle_path, from, end, known);
+      if (found.status == ContactStatus::separated) {
+        if (!is_known || result.status != ContactStatus::separated) continue;
+        result.memory.axis = found.memory.axis;
+        result.memory.contact_time = found.memory.contact_time;
+        continue;
+      }
       result = result_of(found, stretch.body_path);
       result.memory = {.side = -1,
                        .contact_time = found.memory.contact_time,
                        .tolerance = found.memory.tolerance,
-                       .axis = is_one ? found.memory.axis : std::nullopt};
+                       .axis = found.memory.axis,
+                       .body_piece = i,
+                       .obstacle_piece = j,
+                       .normal = found.normal};
       end = found.time;
       if (end == from) return result;
     }
