@@ -69,7 +69,7 @@ void RunLoop::handle_contact(int index, const Pair& met) {
   for (const int each : moving.group().bodies) encounters_.bound_times(each, moving);
   Impact impact = describe(world_, pair, moving.state(time));
   impact.elapsed = time;
-  if (!is_round(body.solid) && is_hit(pair.contact) && obstacle.on_hit != OnHit::stop)
+  if (!is_round(body.solid) && is_hit(pair.contact) && obstacle.on_hit == OnHit::bounce)
     return bounce_off(index, pair, impact);
   if (is_hit(pair.contact) && obstacle.on_hit == OnHit::bounce) {
     if (goes_on_sliding(index, pair)) return;
@@ -225,9 +225,6 @@ void RunLoop::bounce_off(int index, Pair pair, Impact impact) {
     recorder_.impact(impact);
     fail(t, reason);
   };
-  if (obstacle.on_hit == OnHit::pass)
-    return end("body '" + body.name + "' reaches obstacle '" + obstacle.name +
-               "', which lets it pass: how long a solid is within another is not computed yet");
   if (const std::string reason = why_it_cannot_bounce(body); !reason.empty()) return end(reason);
   Instant instant(moving, t);
   const double speed = std::max(0.0, -before.speed);

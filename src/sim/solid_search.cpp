@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "frame_paths.hpp"
+#include "trajet/collide/detect/parting.hpp"
 #include "trajet/collide/detect/turning_contact.hpp"
 
 namespace trajet {
@@ -96,6 +97,7 @@ ContactResult SolidSearch::first_contact(int body_index, int obstacle_index, con
 }
 
 ContactResult SolidSearch::search(const Stretch& stretch, double from, double to, const ContactMemory& memory) {
+  if (memory.side < 0) return search_parting(stretch, from, to, memory);
   const std::vector<int> candidates = near(stretch, from, to);
   const double middle = from + 0.5 * (to - from);
   // a shorter stretch meets no fewer than the body is near to where it begins
@@ -131,7 +133,7 @@ ContactResult SolidSearch::search_pieces(const Stretch& stretch, std::span<const
         continue;
       }
       result = result_of(found, stretch.body_path);
-      result.memory = {.side = -1,
+      result.memory = {.side = result.status == ContactStatus::graze ? 1 : -1,
                        .contact_time = found.memory.contact_time,
                        .tolerance = found.memory.tolerance,
                        .axis = found.memory.axis,
@@ -141,6 +143,25 @@ ContactResult SolidSearch::search_pieces(const Stretch& stretch, std::span<const
       end = found.time;
       if (end == from) return result;
     }
+  return result;
+}
+
+ContactResult SolidSearch::search_parting(const Stretch& stretch, double from, double to, const ContactMemory& memory) {
+  const Parting parting = trajet::first_parting(stretch.body.cores, stretch.body_path, stretch.obstacle.cores,
+                                                stretch.obstacle_path, from, to, memory.contact_time == from);
+  ContactResult result{.memory = memory};
+  if (parting.contact.status == ContactStatus::separated) return result;
+  result = result_of(parting.contact, stretch.body_path);
+  result.direction = ContactDirection::leaving;
+  result.side_before = -1;
+  result.normal = -parting.contact.normal;
+  result.memory = {.side = 1,
+                   .contact_time = parting.contact.memory.contact_time,
+                   .tolerance = parting.contact.memory.tolerance,
+                   .axis = parting.contact.memory.axis,
+                   .body_piece = parting.piece_a,
+                   .obstacle_piece = parting.piece_b,
+                   .normal = parting.contact.normal};
   return result;
 }
 
