@@ -1,6 +1,7 @@
 #include "contact_handler.hpp"
 
 #include <cmath>
+#include <utility>
 
 #include "extended_bounce.hpp"
 #include "impact_record.hpp"
@@ -28,7 +29,7 @@ std::string describe_restitution(const World::Obstacle& obstacle, const Surface&
 }  // namespace
 
 ContactHandler::ContactHandler(const RunControl& control)
-    : run_(control), last_impacts_(control.world().bodies.size()) {}
+    : run_(control), last_impacts_(control.world().bodies.size()), last_bounces_(control.world().bodies.size()) {}
 
 void ContactHandler::handle(int index, const Pair& met) {
   Course& moving = run_.course(index);
@@ -58,7 +59,7 @@ void ContactHandler::handle(int index, const Pair& met) {
   for (const int each : moving.group().bodies) run_.encounters().bound_times(each, moving);
   Impact impact = describe(run_.world(), pair, run_.encounters().frame(pair.id.obstacle, time), moving.state(time));
   impact.elapsed = time;
-  if (!is_round(body.solid) && is_hit(pair.contact) && surface_of(pair).on_hit != OnHit::stop)
+  if (!is_round(body.solid) && is_hit(pair.contact) && surface_of(pair).on_hit == OnHit::bounce)
     return bounce_off(index, pair, impact);
   if (is_hit(pair.contact) && surface_of(pair).on_hit == OnHit::bounce) {
     if (goes_on_sliding(index, pair)) return;
@@ -203,28 +204,41 @@ void ContactHandler::bounce_off(int index, Pair pair, Impact impact) {
       return run_.enqueue(index);
     }
   }
+  const auto rests = [&] {
+    run_.fail(t, "body '" + body.name + "' comes to rest on obstacle '" + obstacle.name +
+                     "': contact that lasts is not computed yet for solids that are no points or balls");
+  };
+  Bounce& last = last_bounces_[static_cast<std::size_t>(pair.id.body)];
+  const Bounce flight = std::exchange(last, Bounce{pair.id.obstacle, t, pair.contact.point});
   run_.recorder().sample(t, pair.id.body, SamplePhase::before);
   const auto end = [&](const std::string& reason) {
     run_.recorder().impact(impact);
     run_.fail(t, reason);
   };
-  if (surface_of(pair).on_hit == OnHit::pass)
-    return end("body '" + body.name + "' reaches obstacle '" + obstacle.name +
-               "', which lets it pass: how long a solid is within another is not computed yet");
   if (const std::string reason = why_it_cannot_bounce(body); !reason.empty()) return end(reason);
   Instant instant(moving, t);
   const double speed = std::max(0.0, -before.speed);
   const double restitution = surface_of(pair).restitution.at(speed);
   if (!(restitution >= 0.0 && restitution <= 1.0))
     return run_.fail(t, describe_restitution(obstacle, surface_of(pair), restitution, speed));
+  // how curved surfaces are pulled together shows in how long the last flight from here was: u/g = dt/2
+  constexpr double kSamePlace = 1e-3;  // of the size
+  const double tolerance = pair.contact.memory.tolerance, duration = t - flight.time;
+  const double moved = (pair.contact.point - flight.point).norm();
+  const bool is_again =
+      flight.obstacle == pair.id.obstacle &&
+      moved <= kSamePlace * bounding_radius(body.solid) + 2.0 * std::abs(duration) * impact.velocity_before.norm();
+  const double pull = before.speed > 0.0 ? std::abs(pair.contact.gap_curvature) : 2.0 * speed / std::abs(duration);
+  const bool is_low = restitution < 1.0 ? is_below_flight(std::abs(before.speed), pull, tolerance)
+                                        : is_lying(std::abs(before.speed), pull, tolerance);
+  if (is_again && is_low) return rests();
   bounce_solid(run_.world(), pair, surface, restitution, mass_of(body, t, instant.q), instant, impact);
   run_.recorder().impact(impact);
   warn_of_hidden_ties(run_.world(), run_.encounters(), pair, impact, moving, run_.recorder());
   const NormalMotion after = normal_motion(run_.world(), pair, surface, instant.q, instant.rate());
   if (after.acceleration <= 0.0 &&
       is_below_flight(std::max(0.0, after.speed), -after.acceleration, pair.contact.memory.tolerance))
-    return run_.fail(t, "body '" + body.name + "' comes to rest on obstacle '" + obstacle.name +
-                            "': contact that lasts is not computed yet for solids that are no points or balls");
+    return rests();
   instant.memories.insert(instant.memories.begin(), {pair.id, rebounded(pair.contact.memory)});
   run_.go_on(index, instant);
   run_.recorder().sample(t, pair.id.body, SamplePhase::after);

@@ -42,7 +42,15 @@ class ContactHandler {
   const Surface& surface_of(const Pair& pair) const { return run_.world().surface(pair.id.body, pair.id.obstacle); }
 
   const RunControl& run_;
+  /// A bounce of a body that is no point or ball.
+  struct Bounce {
+    int obstacle = -1;
+    double time = 0.0;                // s
+    Vector3 point = Vector3::Zero();  // m
+  };
+
   std::vector<AtOneInstant> last_impacts_;  // of each body
+  std::vector<Bounce> last_bounces_;        // of each body
 };
 
 }  // namespace trajet

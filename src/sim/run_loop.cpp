@@ -217,7 +217,8 @@ void RunLoop::go_on(int index, const Instant& instant) {
   const std::vector<EventHold> held_before = moving.held_law().holds();
   moving.restart(instant);
   for (const EventHold& hold : held_before) {
-    if (ranges::any_of(moving.held_law().holds(), [&](const EventHold& each) { return each.event == hold.event; })) continue;
+    if (ranges::any_of(moving.held_law().holds(), [&](const EventHold& each) { return each.event == hold.event; }))
+      continue;
     recorder_.event(instant.time(), "slips", hold.side, events_.name_of(hold.event));
   }
   encounters_.take(instant);

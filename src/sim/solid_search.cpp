@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "frame_paths.hpp"
+#include "trajet/collide/detect/parting.hpp"
 #include "trajet/collide/detect/turning_contact.hpp"
 
 namespace trajet {
@@ -116,6 +117,7 @@ ContactResult SolidSearch::first_contact_of_bodies(int first, const Segment<>& m
 }
 
 ContactResult SolidSearch::search(const Stretch& stretch, double from, double to, const ContactMemory& memory) {
+  if (memory.side < 0) return search_parting(stretch, from, to, memory);
   const std::vector<int> candidates = near(stretch, from, to);
   const double middle = from + 0.5 * (to - from);
   // a shorter stretch meets no fewer than the body is near to where it begins
@@ -129,25 +131,57 @@ ContactResult SolidSearch::search(const Stretch& stretch, double from, double to
 
 ContactResult SolidSearch::search_pieces(const Stretch& stretch, std::span<const int> near, double from, double to,
                                          const ContactMemory& memory) {
-  const bool is_one = stretch.body.cores.size() == 1 && stretch.obstacle.cores.size() == 1;
-  TurningMemory known{memory.axis, memory.contact_time, memory.tolerance};
   ContactResult result{.memory = memory};
+  result.memory.side = 1;
   double end = to;
-  for (const ConvexCore& body : stretch.body.cores)
-    for (const int index : near) {
-      const TurningContact found =
-          trajet::first_contact(body, stretch.body_path, stretch.obstacle.cores[static_cast<std::size_t>(index)],
-                                stretch.obstacle_path, from, end, known);
-      if (is_one) result.memory.axis = found.memory.axis;
-      if (found.status == ContactStatus::separated) continue;
+  for (int i = 0; i < static_cast<int>(stretch.body.cores.size()); ++i)
+    for (const int j : near) {
+      // the axis belongs to one pair of pieces
+      const bool is_known = i == memory.body_piece && j == memory.obstacle_piece;
+      const TurningMemory known{.axis = is_known ? memory.axis : std::nullopt,
+                                .contact_time = memory.contact_time,
+                                .tolerance = memory.tolerance,
+                                .is_apart = memory.side > 0,
+                                .direction = -memory.normal};
+      const TurningContact found = trajet::first_contact(
+          stretch.body.cores[static_cast<std::size_t>(i)], stretch.body_path,
+          stretch.obstacle.cores[static_cast<std::size_t>(j)], stretch.obstacle_path, from, end, known);
+      if (found.status == ContactStatus::separated) {
+        if (!is_known || result.status != ContactStatus::separated) continue;
+        result.memory.axis = found.memory.axis;
+        result.memory.contact_time = found.memory.contact_time;
+        continue;
+      }
       result = result_of(found, stretch.body_path);
-      result.memory = {.side = -1,
+      result.memory = {.side = result.status == ContactStatus::graze ? 1 : -1,
                        .contact_time = found.memory.contact_time,
                        .tolerance = found.memory.tolerance,
-                       .axis = is_one ? found.memory.axis : std::nullopt};
+                       .axis = found.memory.axis,
+                       .body_piece = i,
+                       .obstacle_piece = j,
+                       .normal = found.normal};
       end = found.time;
       if (end == from) return result;
     }
+  return result;
+}
+
+ContactResult SolidSearch::search_parting(const Stretch& stretch, double from, double to, const ContactMemory& memory) {
+  const Parting parting = trajet::first_parting(stretch.body.cores, stretch.body_path, stretch.obstacle.cores,
+                                                stretch.obstacle_path, from, to, memory.contact_time == from);
+  ContactResult result{.memory = memory};
+  if (parting.contact.status == ContactStatus::separated) return result;
+  result = result_of(parting.contact, stretch.body_path);
+  result.direction = ContactDirection::leaving;
+  result.side_before = -1;
+  result.normal = -parting.contact.normal;
+  result.memory = {.side = 1,
+                   .contact_time = parting.contact.memory.contact_time,
+                   .tolerance = parting.contact.memory.tolerance,
+                   .axis = parting.contact.memory.axis,
+                   .body_piece = parting.piece_a,
+                   .obstacle_piece = parting.piece_b,
+                   .normal = parting.contact.normal};
   return result;
 }
 

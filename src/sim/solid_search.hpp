@@ -21,7 +21,8 @@ class SolidSearch {
   /// The world must live as long as this.
   explicit SolidSearch(const World& world);
 
-  /// The first contact between two times on the body's Segment; `driven`: the obstacle, where it moves.
+  /// The first contact between two times on the body's Segment, or, of a body that the memory has inside, the first
+  /// time at which it is out again; `driven`: the obstacle, where it moves.
   ContactResult first_contact(int body, int obstacle, const Segment<>& motion, DrivenObstacle* driven, double from,
                               double to, const ContactMemory& memory);
 
@@ -49,6 +50,8 @@ class SolidSearch {
   static ContactResult search(const Stretch& stretch, double from, double to, const ContactMemory& memory);
   static ContactResult search_pieces(const Stretch& stretch, std::span<const int> near, double from, double to,
                                      const ContactMemory& memory);
+  /// Of what overlaps: when it is apart again.
+  static ContactResult search_parting(const Stretch& stretch, double from, double to, const ContactMemory& memory);
   /// The pieces of the obstacle that the body may come near to.
   static std::vector<int> near(const Stretch& stretch, double from, double to);
 

@@ -14,8 +14,8 @@ namespace trajet {
 /// The error is G r with |r_j| <= 1: each column of G is what one error of one step has become. A step multiplies G by
 /// the derivative of its end by its start, exp(integral of the law's Jacobian), and adds columns of its own; an impact
 /// multiplies it by the derivative of the state behind it by the state before it, of which the impact's time is part.
-/// Where the columns become many, the shortest are replaced by the box around them [Girard2005]. Where errors have grown
-/// beyond all numbers, as they do in chaos, the bound is infinite from then on.
+/// Where the columns become many, the shortest are replaced by the box around them [Girard2005]. Where errors have
+/// grown beyond all numbers, as they do in chaos, the bound is infinite from then on.
 ///
 /// Steps are kept and worked off where somebody asks.
 class StateError {

@@ -61,7 +61,7 @@ AxisCandidate AxisChoice::measure(const RelativePose& pose, const WitnessAxis& a
   AxisCandidate c{axis, separation_along(A_, B_, pose, axis_direction(A_, B_, pose, axis)), tolerance};
   // the rounding of an axis that is a product or a difference does not shrink with its length
   if (axis.kind == AxisKind::edges) {
-    const double sine = edge(A_, axis.a).direction.cross(pose.R_AB * edge(B_, axis.b).direction).norm();
+    const double sine = line_of_a(A_, axis).cross(pose.R_AB * line_of_b(B_, axis)).norm();
     c.resolution /= std::max(sine, 1e-300);
   } else if (axis.kind != AxisKind::in_a && axis.kind != AxisKind::in_b) {
     c.resolution *= std::max(1.0, size_ / std::max(A_.rounding + B_.rounding + c.separation, 1e-300));
@@ -111,16 +111,16 @@ void AxisChoice::offer(const WitnessAxis& axis) {
 }
 
 void AxisChoice::offer_face_of_a(int face) {
-  offer({AxisKind::in_a, face, -1, 1.0, A_.faces[static_cast<std::size_t>(face)].normal});
+  offer({.kind = AxisKind::in_a, .a = face, .direction = A_.faces[static_cast<std::size_t>(face)].normal});
 }
 
 void AxisChoice::offer_face_of_b(int face) {
-  offer({AxisKind::in_b, -1, face, 1.0, -B_.faces[static_cast<std::size_t>(face)].normal});
+  offer({.kind = AxisKind::in_b, .b = face, .direction = -B_.faces[static_cast<std::size_t>(face)].normal});
 }
 
 /// If their arcs on the sphere of normals cross: both are support along their common normal.
 void AxisChoice::offer_edges(int edge_a, int edge_b) {
-  WitnessAxis axis{AxisKind::edges, edge_a, edge_b, 1.0, Vector3::Zero()};
+  WitnessAxis axis{.kind = AxisKind::edges, .a = edge_a, .b = edge_b};
   const Vector3 n = axis_direction(A_, B_, pose_, axis);
   if (n.isZero(0.0)) return;
   for (const double sign : {1.0, -1.0}) {
@@ -133,29 +133,28 @@ void AxisChoice::offer_edges(int edge_a, int edge_b) {
 
 /// A direction that turns with neither feature, but with A or with B.
 void AxisChoice::offer_fixed(const Vector3& direction) {
-  offer({AxisKind::in_a, -1, -1, 1.0, direction});
-  offer({AxisKind::in_b, -1, -1, 1.0, pose_.R_AB.transpose() * direction});
+  offer({.kind = AxisKind::in_a, .direction = direction});
+  offer({.kind = AxisKind::in_b, .direction = pose_.R_AB.transpose() * direction});
 }
 
 void AxisChoice::offer_rounded(const ClosestFeatures& closest, const std::vector<int>& edges_a,
                                const std::vector<int>& edges_b) {
-  const Vector3 none = Vector3::Zero();
   const double apart = closest.distance - A_.rounding - B_.rounding;
   if (closest.b.count == 1)
     for (const int e : edges_a)
-      if (joins(edge(A_, e), closest.a)) offer({AxisKind::edge_vertex, e, closest.b.index[0], 1.0, none});
+      if (joins(edge(A_, e), closest.a)) offer({.kind = AxisKind::edge_vertex, .a = e, .b = closest.b.index[0]});
   if (closest.a.count == 1)
     for (const int e : edges_b)
-      if (joins(edge(B_, e), closest.b)) offer({AxisKind::vertex_edge, closest.a.index[0], e, 1.0, none});
+      if (joins(edge(B_, e), closest.b)) offer({.kind = AxisKind::vertex_edge, .a = closest.a.index[0], .b = e});
   if (closest.a.count == 1 && closest.b.count == 1)
-    offer({AxisKind::vertices, closest.a.index[0], closest.b.index[0], 1.0, none});
+    offer({.kind = AxisKind::vertices, .a = closest.a.index[0], .b = closest.b.index[0]});
   constexpr double kEnough = 0.5;
   if (best_.is_clear() && best_.separation >= kEnough * apart) return;
   // parallel edges, and what else the simplex leaves out
   for (const int e : edges_a)
-    for (const int v : closest.b) offer({AxisKind::edge_vertex, e, v, 1.0, none});
+    for (const int v : closest.b) offer({.kind = AxisKind::edge_vertex, .a = e, .b = v});
   for (const int e : edges_b)
-    for (const int v : closest.a) offer({AxisKind::vertex_edge, v, e, 1.0, none});
+    for (const int v : closest.a) offer({.kind = AxisKind::vertex_edge, .a = v, .b = e});
 }
 
 /// The axes of all features around a place: those along which solids that nearly touch there can be apart.

@@ -26,7 +26,8 @@ struct Plane2 {
 
 /// What of a core lies in its supporting plane.
 struct Flat {
-  Polygon corners{};  ///< counterclockwise; two of an edge, one of a vertex
+  Polygon corners{};    ///< counterclockwise; two of an edge, one of a vertex
+  double radius = 0.0;  ///< of a disk around the only corner, m
   Feature feature = Feature::vertex;
 };
 
@@ -54,7 +55,9 @@ Flat flat_part(const ConvexCore& core, const Vector3& direction, double margin, 
       // of a disk that lies in the plane every point is as far
       const bool is_flat = length <= margin;
       flat.corners.push_back(plane(place(is_flat ? core.vertices[i] : Vector3(core.vertices[i] + E * (y / length)))));
-      if (!E.isZero(0.0)) flat.feature = is_flat ? Feature::face : Feature::surface;
+      if (E.isZero(0.0)) continue;
+      flat.feature = is_flat ? Feature::face : Feature::surface;
+      if (is_flat) flat.radius = E.col(0).norm();
     }
     return flat;
   }
@@ -85,7 +88,43 @@ Polygon left_of(const Polygon& p, const Point2& a, const Point2& b, double margi
   return kept;
 }
 
-Polygon shared(const Polygon& a, const Polygon& b, double margin) {
+/// What of a disk another flat part covers: that part's corners within the disk, and where its sides cross the rim; of
+/// a disk that is all within the other part its middle.
+Polygon within_disk(const Point2& middle, double radius, const Flat& other, double margin) {
+  if (other.radius > 0.0) {
+    const Point2 d = other.corners[0] - middle;
+    const double apart = d.norm(), least = std::min(radius, other.radius);
+    if (apart <= std::abs(radius - other.radius) + margin) return {radius == least ? middle : other.corners[0]};
+    // where the two rims cross
+    const double x = 0.5 * (apart + (radius - other.radius) * (radius + other.radius) / apart);
+    const double y = std::sqrt(std::max(0.0, radius * radius - x * x));
+    const Point2 along = d / apart, aside(-along.y(), along.x());
+    return {middle + x * along + y * aside, middle + x * along - y * aside};
+  }
+  const Polygon& p = other.corners;
+  if (p.size() == 1) {
+    const Point2 d = p[0] - middle;
+    return {d.norm() <= radius ? p[0] : Point2(middle + d * (radius / d.norm()))};
+  }
+  Polygon covered;
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    const Point2 &from = p[i], &to = p[(i + 1) % p.size()];
+    if ((from - middle).norm() <= radius + margin) covered.push_back(from);
+    if (p.size() == 2 && i == 1) break;
+    // |from + s (to - from) - middle| = radius
+    const Point2 d = to - from, o = from - middle;
+    const double a = d.squaredNorm(), half = d.dot(o) / a, rest = half * half - (o.squaredNorm() - radius * radius) / a;
+    if (rest <= 0.0) continue;
+    for (const double s : {-half - std::sqrt(rest), -half + std::sqrt(rest)})
+      if (s > 0.0 && s < 1.0) covered.push_back(from + s * d);
+  }
+  return covered.empty() ? Polygon{middle} : covered;
+}
+
+Polygon shared(const Flat& of_a, const Flat& of_b, double margin) {
+  if (of_a.radius > 0.0) return within_disk(of_a.corners[0], of_a.radius, of_b, margin);
+  if (of_b.radius > 0.0) return within_disk(of_b.corners[0], of_b.radius, of_a, margin);
+  const Polygon &a = of_a.corners, &b = of_b.corners;
   if (a.size() == 1) return a;
   if (b.size() == 1) return b;
   if (a.size() == 2 && b.size() == 2) {
@@ -134,7 +173,7 @@ ContactPatch contact_patch(const ConvexCore& A, const ConvexCore& B, const Relat
     const Flat of_a = flat_part(A, normal, margin, plane, [](const Vector3& p) { return p; });
     patch.of_a = of_a.feature;
     height = support(A, normal).height + A.rounding;
-    common = shared(of_a.corners, of_b.corners, margin);
+    common = shared(of_a, of_b, margin);
     // features that miss each other by more than the margin: the corner that is nearest will do
     if (common.empty()) common.push_back(of_b.corners.front());
   }

@@ -129,15 +129,14 @@ void Separation::take_in_b(const RelativeMotion& motion, const Vector3& n) {
 }
 
 void Separation::take_edges(const RelativeMotion& motion, const WitnessAxis& axis) {
-  const CoreEdge &of_a = edge(A_, axis.a), &of_b = edge(B_, axis.b);
-  const Vector3 e = axis.sign * of_a.direction, &f = of_b.direction;
+  const Vector3 e = axis.sign * line_of_a(A_, axis), f = line_of_b(B_, axis);
   const WindowVector e_W = motion.a().N * e, f_W = motion.b().N * f;
   base_ = dot(e_W, cross(f_W, motion.apart()));
   a_ = cross(e, transposed_times(motion.a().N, f_W));
   b_ = cross(-f, transposed_times(motion.b().N, e_W));
   is_turning_ = true;
-  skip_a_ = of_a.to;
-  skip_b_ = of_b.to;
+  if (axis.a >= 0) skip_a_ = edge(A_, axis.a).to;
+  if (axis.b >= 0) skip_b_ = edge(B_, axis.b).to;
 }
 
 /// From a vertex of A, or across an edge of it, to a vertex of B.
@@ -351,6 +350,14 @@ SeparationZero Separation::zero_at(const Root& root, const FunctionSample& sampl
   return zero;
 }
 
+Vector3 line_of_a(const ConvexCore& A, const WitnessAxis& axis) {
+  return axis.a < 0 ? axis.direction : edge(A, axis.a).direction;
+}
+
+Vector3 line_of_b(const ConvexCore& B, const WitnessAxis& axis) {
+  return axis.b < 0 ? axis.line_b : edge(B, axis.b).direction;
+}
+
 Vector3 axis_direction(const ConvexCore& A, const ConvexCore& B, const RelativePose& pose, const WitnessAxis& axis) {
   const auto unit = [](const Vector3& v, double least) {
     const double norm = v.norm();
@@ -365,7 +372,7 @@ Vector3 axis_direction(const ConvexCore& A, const ConvexCore& B, const RelativeP
     case AxisKind::in_b:
       return pose.R_AB * axis.direction;
     case AxisKind::edges:
-      return axis.sign * unit(edge(A, axis.a).direction.cross(pose.R_AB * edge(B, axis.b).direction), kParallel);
+      return axis.sign * unit(line_of_a(A, axis).cross(pose.R_AB * line_of_b(B, axis)), kParallel);
     case AxisKind::edge_vertex:
       return unit(across_edge(in_a(axis.b) - vertex(A, edge(A, axis.a).from), edge(A, axis.a).direction), 0.0);
     case AxisKind::vertex_edge:

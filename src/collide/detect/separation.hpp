@@ -89,6 +89,10 @@ class Separation {
   mutable bool stays_at_zero_ = false;
 };
 
+/// Of the edges, or other lines, to which an axis is orthogonal, each in the frame of its solid.
+Vector3 line_of_a(const ConvexCore& A, const WitnessAxis& axis);
+Vector3 line_of_b(const ConvexCore& B, const WitnessAxis& axis);
+
 /// Unit, in A's frame, from A to B; zero where the features leave it open.
 Vector3 axis_direction(const ConvexCore& A, const ConvexCore& B, const RelativePose& pose, const WitnessAxis& axis);
 

@@ -49,6 +49,10 @@ FacingPoints facing_points(const ConvexCore& A, const ConvexCore& B, const Relat
       return {p, p - n * (n.dot(p) - height)};
     }
     case AxisKind::edges: {
+      if (axis.a < 0) {
+        const Vector3 n = axis_direction(A, B, pose, axis);
+        return {support(A, n).point, pose.p_AB + pose.R_AB * support(B, -(pose.R_AB.transpose() * n)).point};
+      }
       const Vector3 &e = edge(A, axis.a).direction, f = pose.R_AB * edge(B, axis.b).direction, n = e.cross(f);
       const Vector3 &a = vertex(A, edge(A, axis.a).from), b = in_a(edge(B, axis.b).from), d = b - a;
       return {a + e * (n.dot(d.cross(f)) / n.squaredNorm()), b + f * (n.dot(d.cross(e)) / n.squaredNorm())};
@@ -82,6 +86,7 @@ Touch judge(const ConvexCore& A, const ConvexCore& B, const RelativePose& pose, 
       if (axis.b < 0 || face(B, axis.b).loop.empty() || A.is_spread()) return Touch::unclear;
       return within(inside(B, face(B, axis.b), in_b(facing.on_a)), margin);
     case AxisKind::edges: {
+      if (axis.a < 0) return Touch::unclear;
       const CoreEdge &e = edge(A, axis.a), &f = edge(B, axis.b);
       if (!is_end(e, zero.a) || !is_end(f, zero.b)) return Touch::apart;
       // where the edges are parallel the axis vanishes, not the gap

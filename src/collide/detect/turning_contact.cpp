@@ -13,6 +13,10 @@ namespace {
 std::optional<WitnessAxis> exchanged(std::optional<WitnessAxis> axis) {
   if (!axis) return axis;
   std::swap(axis->a, axis->b);
+  if (axis->kind == AxisKind::edges) {  // -(f x e) = e x f
+    std::swap(axis->direction, axis->line_b);
+    return axis;
+  }
   switch (axis->kind) {
     case AxisKind::in_a:
       axis->kind = AxisKind::in_b;
@@ -26,7 +30,7 @@ std::optional<WitnessAxis> exchanged(std::optional<WitnessAxis> axis) {
     case AxisKind::vertex_edge:
       axis->kind = AxisKind::edge_vertex;
       break;
-    case AxisKind::edges:  // -(f x e) = e x f
+    case AxisKind::edges:
     case AxisKind::vertices:
     case AxisKind::balls:
       break;
@@ -53,6 +57,7 @@ TurningContact first_contact(const ConvexCore& a, const FramePath& path_a, const
   // the normal of b towards a is that from b to a: b takes the first place
   TurningMemory turned = memory;
   turned.axis = exchanged(memory.axis);
+  turned.direction = -memory.direction;
   const std::size_t known = chain == nullptr ? 0 : chain->size();
   TurningContact contact = detail::TurningSearch(b, path_b, a, path_a, from, to, turned, chain).run();
   contact.memory.axis = exchanged(contact.memory.axis);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "contact_patch.hpp"
+#include "refined_touch.hpp"
 #include "trajet/math/roots.hpp"
 
 namespace trajet::detail {
@@ -107,8 +108,8 @@ bool TurningSearch::begin_axis(const RelativeMotion& window, double tolerance) {
   const AxisCandidate c = choose(window, -1.0, pose, tolerance, nullptr);
   axis_ = c.axis;
   if (c.is_clear()) return true;
-  const bool is_first = time_ == from_ && !memory_.axis;
-  if (is_first && c.separation >= -c.resolution) {
+  const bool is_first = time_ == from_ && !memory_.axis && !memory_.is_apart;
+  if ((is_first && c.separation >= -c.resolution) || (time_ == from_ && starts_in_contact())) {
     is_touching_ = true;
     return true;
   }
@@ -124,15 +125,6 @@ bool TurningSearch::begin_axis(const RelativeMotion& window, double tolerance) {
   return false;
 }
 
-/// Where no axis seems clear, the best one is asked for all that it can tell.
-AxisCandidate TurningSearch::choose(const RelativeMotion& window, double u, const RelativePose& pose, double tolerance,
-                                    const Vector3* place) {
-  AxisCandidate c = choice_.choose(pose, tolerance, place);
-  if (!c.is_clear() && c.separation > 0.0)
-    c.resolution = std::min(c.resolution, Separation(A_, B_, window, c.axis).resolution(u));
-  return c;
-}
-
 void TurningSearch::search_window() {
   const RelativeMotion window = next_window();
   const double end =
@@ -142,6 +134,10 @@ void TurningSearch::search_window() {
   // a choice must not depend on what the search then cannot tell from zero
   const double tolerance = std::max(8.0 * window.rounding(size_), 32.0 * kUnitRoundoff * size_);
   if (!begin_axis(window, tolerance)) return;
+  if (is_touching_ && time_ == from_) {
+    const RelativePose pose = pose_at(time_);
+    take_longest(window, -1.0, pose, direction_now(pose), starts_in_contact() ? memory_.tolerance : 0.0);
+  }
   for (double u = -1.0;;) {
     const Separation along(A_, B_, window, *axis_);
     const double here = u == -1.0 ? time_ : window.time(u);
@@ -231,6 +227,9 @@ bool TurningSearch::follow(const RelativeMotion& window, double tolerance, const
     return false;
   }
   axis_ = next.axis;
+  // where lines cross, no direction that is fixed in one of the solids holds for long
+  constexpr double kShort = 1e-3;
+  if (zero.u - u < kShort) take_longest(window, zero.u, pose, direction_now(pose), 0.0);
   is_touching_ = false;
   u = zero.u;
   return true;
@@ -247,34 +246,6 @@ void TurningSearch::finish(ContactStatus status, double time) {
   is_done_ = true;
 }
 
-/// The closest points of curved solids a little before they touch: there direction and place have more digits than
-/// where the distance is rounding.
-ClosestFeatures TurningSearch::just_apart(const RelativeMotion& window, double time) const {
-  ClosestFeatures closest;
-  constexpr double kFirst = 1e-10, kLast = 1e-3;  // of the window
-  for (double step = kFirst; step < kLast; step *= 4.0) {
-    closest = closest_features(A_, B_, pose_at(time - 2.0 * window.half() * step));
-    constexpr double kApart = 1e-9;
-    if (closest.distance - A_.rounding - B_.rounding > kApart * size_) break;
-  }
-  return closest;
-}
-
-bool TurningSearch::parts_behind(const RelativeMotion& window, double time, double tolerance, const Vector3& place,
-                                 double first) {
-  constexpr double kFirst = 1e-12, kLast = 0.02;  // of the window
-  const double length = 2.0 * std::abs(window.half());
-  for (double step = std::min(std::max(first, kFirst * length), 0.5 * kLast * length); step < kLast * length;
-       step *= 2.0) {
-    double t = time + (from_ <= to_ ? step : -step);
-    if (!is_before(t, to_)) t = to_;
-    const AxisCandidate c = choice_.choose(pose_at(t), tolerance, &place);
-    if (c.is_clear()) return true;
-    if (c.separation < -c.resolution || t == to_) return false;
-  }
-  return false;
-}
-
 /// `is_known`: the features of the axis are those that touch, where its separation is zero. Else no axis tells the
 /// solids apart any more, and this is the best there is; `apart` is what is left between them.
 void TurningSearch::report(const RelativeMotion& window, double tolerance, const SeparationZero& zero, double time,
@@ -288,12 +259,13 @@ void TurningSearch::report(const RelativeMotion& window, double tolerance, const
     b = b_.pose(time);
     const RelativePose pose = relative_pose(a, b);
     normal = axis_direction(A_, B_, pose, *axis_);
-    const bool is_curved = !A_.is_half_space && (A_.is_spread() || B_.is_spread());
-    const ClosestFeatures closest = is_curved ? just_apart(window, time) : ClosestFeatures{};
-    if (closest.distance > 0.0) normal = closest.direction;
+    std::optional<RefinedTouch> touch;
+    if (is_curved()) {
+      touch = refined_touch(A_, B_, pose, normal);
+      normal = touch->normal;
+    }
     patch = contact_patch(A_, B_, pose, normal, kMargin * size_);
-    if (closest.distance > 0.0 && patch.corners.size() == 1)
-      patch.point = 0.5 * (closest.on_a + A_.rounding * normal + closest.on_b - B_.rounding * normal);
+    if (touch && touch->is_refined && patch.corners.size() == 1) patch.point = 0.5 * (touch->on_a + touch->on_b);
     const Vector3 point = a.point(patch.point);
     rate = (a.R_WB * normal).dot(b.velocity_at(point) - a.velocity_at(point));
   };
@@ -307,11 +279,22 @@ void TurningSearch::report(const RelativeMotion& window, double tolerance, const
       look();
     }
   }
+  if (zero.at_begin && rate > 0.0 && patch.corners.size() > 1) {
+    // of what lies on each other one corner is driven in where the others depart
+    for (const Vector3& corner : patch.corners) {
+      const Vector3 p = a.point(corner);
+      const double r = (a.R_WB * normal).dot(b.velocity_at(p) - a.velocity_at(p));
+      if (r >= rate) continue;
+      rate = r;
+      patch.point = corner;
+    }
+    patch.corners = {patch.point};
+  }
   bool is_graze = is_known && zero.kind == RootKind::touch;
   if (!is_known && !zero.at_end) {
     // by then what is left of the gap has closed, if it closes
     const double closing = 4.0 * (std::max(0.0, apart) + tolerance) / std::abs(rate);
-    is_graze = parts_behind(window, time, tolerance, patch.point, closing);
+    is_graze = parts_behind(window, time, tolerance, patch.point, normal, closing);
   }
   finish(is_graze ? ContactStatus::graze : ContactStatus::hit, time);
   TurningContact& c = contact_;

@@ -34,16 +34,26 @@ class TurningSearch {
   bool needs_shorter_window(const RelativeMotion& window, const Separation& along,
                             const std::optional<SeparationZero>& zero, double u);
 
+  /// Whether direction and place of a contact follow from curved surfaces, to be found by steps.
+  bool is_curved() const { return !A_.is_half_space && (A_.is_spread() || B_.is_spread()); }
+  Vector3 direction_now(const RelativePose& pose) const;
+  /// Of the axis and of others near a direction takes that along which they are apart for longest from u on: of those
+  /// that are fixed in one of the solids, and of those that are orthogonal to lines of both.
+  void take_longest(const RelativeMotion& window, double u, const RelativePose& pose, const Vector3& near,
+                    double begin_tolerance);
+
   void link(double from, double to);
   void finish(ContactStatus status, double time);
   AxisCandidate choose(const RelativeMotion& window, double u, const RelativePose& pose, double tolerance,
                        const Vector3* place);
+  /// The best axis; where none is clear, what is near a direction, or zero, is looked at too.
+  AxisCandidate best_axis(const RelativePose& pose, double tolerance, const Vector3* place, const Vector3& near);
   void report(const RelativeMotion& window, double tolerance, const SeparationZero& zero, double time, double apart,
               bool is_known);
-  ClosestFeatures just_apart(const RelativeMotion& window, double time) const;
   /// Whether solids that touch within the tolerance at a time, at a place in A, are apart again behind it, before they
   /// overlap. Looks from `first` (s) behind it.
-  bool parts_behind(const RelativeMotion& window, double time, double tolerance, const Vector3& place, double first);
+  bool parts_behind(const RelativeMotion& window, double time, double tolerance, const Vector3& place,
+                    const Vector3& normal, double first);
 
   const ConvexCore& A_;
   const ConvexCore& B_;

@@ -49,6 +49,10 @@ struct ContactMemory {
   double tolerance = 0.0;
   /// Of solids that turn: along which they were apart, or touched.
   std::optional<WitnessAxis> axis{};
+  int body_piece = 0;  ///< of what is not convex: whose axis that is
+  int obstacle_piece = 0;
+  /// Unit, world, of the obstacle at the contact of solids that turn, towards the body; zero without a contact.
+  Vector3 normal = Vector3::Zero();
 };
 
 /// The memory after a contact at which the body stayed on the side that it came from.

@@ -23,6 +23,10 @@ struct TurningMemory {
   double contact_time = std::numeric_limits<double>::quiet_NaN();
   /// Within this gap (m) a search that begins at `contact_time` is still in that contact.
   double tolerance = 0.0;
+  /// Whether they are known not to overlap where the search begins; so they are where there is an axis.
+  bool is_apart = false;
+  /// Unit, world, from a to b: along which, at `contact_time`, other pieces of the same two things touched; or zero.
+  Vector3 direction = Vector3::Zero();
 };
 
 /// The first contact of two convex solids, a and b. World frame, SI units.

@@ -8,7 +8,7 @@ namespace trajet {
 enum class AxisKind {
   in_a,         ///< fixed in A: the normal of one of its faces, or any direction
   in_b,         ///< fixed in B
-  edges,        ///< orthogonal to an edge of A and one of B
+  edges,        ///< orthogonal to an edge, or another line, of A and one of B
   edge_vertex,  ///< from an edge of A to a vertex of B, orthogonal to the edge
   vertex_edge,  ///< from a vertex of A to an edge of B, orthogonal to the edge
   vertices,     ///< from a vertex of A to one of B
@@ -19,10 +19,12 @@ enum class AxisKind {
 /// there is no contact, whatever the direction.
 struct WitnessAxis {
   AxisKind kind = AxisKind::in_a;
-  int a = -1;                           ///< face, edge or vertex of A's core; -1: none
+  int a = -1;                           ///< face, edge or vertex of A's core; -1: none, or a line that is no edge
   int b = -1;                           ///< ... of B's
   double sign = 1.0;                    ///< edges: of the product of A's edge and B's
-  Vector3 direction = Vector3::Zero();  ///< in_a and in_b: unit, from A to B, in the frame of that solid
+  /// in_a and in_b: unit, from A to B, in the frame of that solid. edges without numbers: that of A's line, in A.
+  Vector3 direction = Vector3::Zero();
+  Vector3 line_b = Vector3::Zero();  ///< edges without numbers: that of B's line, in B, unit
 
   bool operator==(const WitnessAxis&) const = default;
 };
