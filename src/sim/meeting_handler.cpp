@@ -153,6 +153,8 @@ void MeetingHandler::bounce(const Meeting& meeting, const Surface& surface, Impa
   bounce_bodies(world, meeting, restitution, first.error_columns(t), second.error_columns(t), instant_first,
                 instant_second, impact);
   run_.recorder().impact(impact);
+  run_.lasting_contacts().release_by_speed(instant_first, meeting.id.first);
+  run_.lasting_contacts().release_by_speed(instant_second, meeting.id.second);
   const GapMotion after =
       gap_motion(world, meeting, instant_first.q, instant_first.rate(), instant_second.q, instant_second.rate());
   if (after.acceleration < 0.0 &&

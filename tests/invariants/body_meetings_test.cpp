@@ -187,6 +187,32 @@ TEST(BodyMeetings, OfACradleTheLastBallTakesTheVelocity) {
   }
 }
 
+TEST(BodyMeetings, ABallThatRestsOnTheFloorIsHitFromAboveAndFliesOn) {
+  // what is hit leaves the floor by way of it: all energy is that of the fall
+  const double g = 9.8, height = 0.8;
+  const std::string falls = "acceleration = [0, 0, -9.8]\n";
+  for (const double aside : {0.0, 0.02}) {
+    const BallOf low{"low", 0.1, 1.0, {0, 0, 0.1}, {0, 0, 0}, falls};
+    const BallOf high{"high", 0.1, 2.0, {aside, 0, 0.1 + std::sqrt(0.04 - aside * aside) + height}, {0, 0, 0}, falls};
+    const RunResult result =
+        run_text("[time]\nend = 3\n" + low.text() + high.text() + plane("floor", {0, 0, 0}, {0, 0, 1}));
+    ASSERT_EQ(result.status, RunStatus::finished) << result.failure;
+    ASSERT_GT(result.impacts.size(), 4u);
+    EXPECT_EQ(result.impacts[0].kind, ImpactKind::rest);
+    const Impact& hit = result.impacts[1];
+    EXPECT_NEAR(hit.time, std::sqrt(2.0 * height / g), 1e-13);
+    EXPECT_EQ(result.impacts[2].with, "floor");
+    EXPECT_EQ(result.impacts[2].time, hit.time);
+    double energy = 0.0;
+    for (const BallOf* ball : {&low, &high}) {
+      const BodyState& last = final_of(result, ball->name);
+      energy += ball->mass * (0.5 * last.velocity.squaredNorm() + g * last.position.z());
+    }
+    const double before = g * (low.mass * low.position.z() + high.mass * high.position.z());
+    EXPECT_NEAR(energy, before, 1e-13 * before * static_cast<double>(result.impacts.size()));
+  }
+}
+
 TEST(BodyMeetings, TheOrderInTheFileDoesNotMatter) {
   const std::vector<BallOf> balls{{"a", 0.3, 1.0, {0, 0, 1}, {1, 0.2, 0}},
                                   {"b", 0.2, 2.0, {2, 0.1, 1}, {-1, 0, 0.1}},
