@@ -20,15 +20,21 @@ Extended height(const ConvexCore& core, const VectorX3& n) {
   return most + Extended(core.rounding) * n.norm();
 }
 
-/// Of a link, at one time; for axes that are fixed in one of the solids, and for the balls around them.
+/// Of a link, at one time; for axes that are fixed in one of the solids or orthogonal to lines of both, and for the
+/// balls around them.
 Extended separation(const Encounter& e, const FramePath& a, const FramePath& b, const WitnessAxis& axis, Extended t) {
   const ExtendedPose pa(a, t), pb(b, t);
   const VectorX3 d = pb.r - pa.r;
   if (axis.kind == AxisKind::balls && e.a.core.is_half_space) return pa.R.col(2).dot(d) - Extended(e.b.core.reach);
   if (axis.kind == AxisKind::balls) return d.norm() - Extended(e.a.core.reach) - Extended(e.b.core.reach);
-  const VectorX3 n = axis.kind == AxisKind::in_a ? VectorX3(pa.R * axis.direction.cast<Extended>())
-                                                 : VectorX3(pb.R * axis.direction.cast<Extended>());
-  EXPECT_TRUE(axis.kind == AxisKind::in_a || axis.kind == AxisKind::in_b);
+  VectorX3 n =
+      axis.kind == AxisKind::in_b ? pb.R * axis.direction.cast<Extended>() : pa.R * axis.direction.cast<Extended>();
+  if (axis.kind == AxisKind::edges) {  // of lines that are no edges
+    EXPECT_LT(axis.a, 0);
+    n = n.cross(pb.R * axis.line_b.cast<Extended>()).normalized() * Extended(axis.sign);
+  } else {
+    EXPECT_TRUE(axis.kind == AxisKind::in_a || axis.kind == AxisKind::in_b);
+  }
   const Extended of_a =
       e.a.core.is_half_space ? pa.R.col(2).dot(n) > 1 - 1e-14L ? 0.0L : 1e30L : height(e.a.core, pa.R.transpose() * n);
   return n.dot(d) - of_a - height(e.b.core, -(pb.R.transpose() * n));
