@@ -22,7 +22,7 @@ ContactResult first_contact_of_balls(const World::Body& a, const Segment<>& moti
                                      const Segment<>& motion_b, const TimeSpan& span, Locator locator,
                                      const ContactMemory& memory) {
   const auto rows_a = position_rows(a, motion_a, span.from), rows_b = position_rows(b, motion_b, span.from);
-  Segment<3> apart;
+  Segment<> apart;  // of any degree
   apart.resize(3, static_cast<int>(std::max(rows_a.cols(), rows_b.cols())) - 1);
   apart.coefficients().setZero();
   apart.coefficients().leftCols(rows_a.cols()) = rows_a;

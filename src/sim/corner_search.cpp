@@ -33,9 +33,9 @@ RotationRows rotation_rows(const FramePath& path) {
            {2.0 * (xz - wy), 2.0 * (yz + wx), ww - xx - yy + zz}}};
 }
 
-Segment<3> corner_path(const FramePath& path, const RotationRows& R, const Vector3& p_B) {
+Segment<> corner_path(const FramePath& path, const RotationRows& R, const Vector3& p_B) {
   const Eigen::Index count = std::max(path.position().cols(), R[0][0].size());
-  Segment<3> corner;
+  Segment<> corner;  // of any degree
   corner.resize(3, std::min(static_cast<int>(count) - 1, kMaxPolynomialDegree));
   auto& rows = corner.coefficients();
   rows.setZero();
@@ -71,7 +71,7 @@ ContactResult first_corner_contact(const World::Body& body, const World::Obstacl
     const double next = end;
     first.memory = {.side = 1};
     for (const Vector3& p_B : core.vertices) {
-      const Segment<3> corner = corner_path(path, R, p_B);
+      const Segment<> corner = corner_path(path, R, p_B);
       const PointPath point(corner, 0);
       ContactResult found = first_contact(obstacle.shape, {point, 0.0, from, end, locator}, known);
       if (found.status == ContactStatus::separated) continue;

@@ -52,16 +52,17 @@ TEST(Run, WritesSummaryReportAndSamples) {
   EXPECT_EQ(result.out.find('\033'), std::string::npos);  // no colours into a file
 
   const Json report = Json::parse(read_text(folder.file("r.json")));
-  EXPECT_EQ(keys(report),
-            (std::vector<std::string>{"trajet", "scene", "title", "method", "status", "start_time", "end_time",
-                                      "parameters", "impacts", "events", "final", "states", "warnings", "statistics"}));
+  EXPECT_EQ(keys(report), (std::vector<std::string>{"trajet", "scene", "title", "method", "status", "start_time",
+                                                    "end_time", "parameters", "impacts", "events", "verdict", "final",
+                                                    "states", "warnings", "statistics"}));
   EXPECT_EQ(report["status"], "stopped");
   EXPECT_EQ(keys(report["parameters"]), (std::vector<std::string>{"theta", "v0", "g"}));
   ASSERT_EQ(report["impacts"].size(), 1u);
   const Json& impact = report["impacts"][0];
-  EXPECT_EQ(keys(impact), (std::vector<std::string>{"time", "body", "with", "kind", "point", "normal", "position",
-                                                    "velocity_before", "velocity_after", "angular_velocity_before",
-                                                    "angular_velocity_after", "impulse", "time_error_bound"}));
+  EXPECT_EQ(keys(impact),
+            (std::vector<std::string>{"time", "body", "with", "kind", "point", "normal", "position", "velocity_before",
+                                      "velocity_after", "angular_velocity_before", "angular_velocity_after", "impulse",
+                                      "time_error_bound", "features", "points"}));
   // t = 180/(v0 cos theta), to the rounding of both computations
   const double theta = report["parameters"]["theta"];
   EXPECT_DOUBLE_EQ(theta, 0.05 * M_PI / 180);
