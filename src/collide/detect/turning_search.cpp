@@ -219,7 +219,13 @@ bool TurningSearch::follow(const RelativeMotion& window, double tolerance, const
   }
   constexpr int kStalls = 8, kLinks = 2000;
   if (zero.u - u <= 4.0 * kUnitRoundoff && ++stalls_ > kStalls) {
-    finish(ContactStatus::unresolved, time);
+    // apart by no more than rounding, and no axis leads away from here: they touch
+    constexpr double kFew = 16.0;
+    axis_ = next.axis;
+    if (next.apart <= kFew * tolerance)
+      report(window, tolerance, zero, time, next.apart, false);
+    else
+      finish(ContactStatus::unresolved, time);
     return false;
   }
   if (++links_ > kLinks) {
