@@ -7,6 +7,7 @@
 #include "impact_record.hpp"
 #include "impact_sides.hpp"
 #include "jump_derivative.hpp"
+#include "last_contact.hpp"
 #include "plastic_bounce.hpp"
 #include "solid_bounce.hpp"
 #include "ties.hpp"
@@ -17,9 +18,6 @@
 
 namespace trajet {
 namespace {
-
-/// So many impacts of one body at one instant are a body that cannot get away, not a motion.
-constexpr int kMaxImpactsAtOnce = 1000;
 
 std::string describe_restitution(const World::Obstacle& obstacle, const Surface& surface, double restitution,
                                  double speed) {

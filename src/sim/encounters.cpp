@@ -5,6 +5,7 @@
 #include <variant>
 
 #include "corner_search.hpp"
+#include "last_contact.hpp"
 #include "solid_bounce.hpp"
 #include "swept_box.hpp"
 #include "trajet/collide/detect/contact_table.hpp"
@@ -211,19 +212,11 @@ void Encounters::pass(PairId id, const Course& course) {
 bool Encounters::stay_in_contact(PairId id, const Course& course, double height) {
   Pair& touched = pair(id);
   const double time = touched.contact.time;
-  ContactMemory memory = touched.contact.memory;
-  memory.side = touched.contact.side_before;
-  memory.contact_time = time;
-  // how far the Segment goes astray is found by trying
-  constexpr double kLeast = 0x1p-40;  // of the height
-  constexpr double kMore = 16.0;
-  memory.tolerance = std::max(memory.tolerance, kLeast * height);
-  if (touched.memory.contact_time == time)
-    memory.tolerance = std::max(memory.tolerance, kMore * touched.memory.tolerance);
-  if (memory.tolerance > 0.5 * height) return false;
-  touched.memory = memory;
+  const std::optional<ContactMemory> memory = memory_of_last_contact(touched.contact, touched.memory, height);
+  if (!memory) return false;
+  touched.memory = *memory;
   touched.known_at = time;
-  touched.contact = first_contact_until(touched, memory, course, time, touched.searched_to);
+  touched.contact = first_contact_until(touched, *memory, course, time, touched.searched_to);
   touched.ahead = touched.contact.memory;
   return true;
 }

@@ -5,14 +5,12 @@
 #include "body_bounce.hpp"
 #include "impact_record.hpp"
 #include "impact_sides.hpp"
+#include "last_contact.hpp"
 #include "trajet/collide/sustain/rest.hpp"
 #include "trajet/text/shortest_text.hpp"
 
 namespace trajet {
 namespace {
-
-/// So many impacts of one body at one instant are a body that cannot get away, not a motion.
-constexpr int kMaxImpactsAtOnce = 1000;
 
 /// How the gap changes where the courses are at the contact.
 GapMotion gap_motion_of(const World& world, const Meeting& meeting, const Course& first, const Course& second) {
@@ -71,8 +69,13 @@ void MeetingHandler::handle(int course, const Meeting& met) {
     if (goes_on_from_contact(meeting)) return pass_on(meeting);
     return bounce(meeting, surface, impact);
   }
+  if (is_hit && surface.on_hit == OnHit::stop) {
+    sample(meeting, SamplePhase::before);
+    run_.recorder().sample(time);
+    run_.recorder().impact(impact);
+    return run_.stop();
+  }
   record(meeting, impact);
-  if (is_hit && surface.on_hit == OnHit::stop) return run_.stop();
   run_.meetings().pass(meeting.id);
   pass_on(meeting);
 }

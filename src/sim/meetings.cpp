@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "ball_meeting.hpp"
+#include "last_contact.hpp"
 #include "swept_box.hpp"
 #include "trajet/portable.hpp"
 
@@ -215,17 +216,9 @@ void Meetings::remember(const Meeting::Id& id, const ContactMemory& memory) {
 bool Meetings::stay_in_contact(const Meeting::Id& id, double height) {
   Meeting& meeting = meetings_.find(id)->second;
   const double time = meeting.contact.time;
-  ContactMemory memory = meeting.contact.memory;
-  memory.side = meeting.contact.side_before;
-  memory.contact_time = time;
-  // how far the Segments go astray is found by trying
-  constexpr double kLeast = 0x1p-40;  // of the height
-  constexpr double kMore = 16.0;
-  memory.tolerance = std::max(memory.tolerance, kLeast * height);
-  if (meeting.memory.contact_time == time)
-    memory.tolerance = std::max(memory.tolerance, kMore * meeting.memory.tolerance);
-  if (memory.tolerance > 0.5 * height) return false;
-  meeting.memory = memory;
+  const std::optional<ContactMemory> memory = memory_of_last_contact(meeting.contact, meeting.memory, height);
+  if (!memory) return false;
+  meeting.memory = *memory;
   meeting.known_at = time;
   search(meeting, time);
   changed_.insert(changed_.end(), {id.first, id.second});

@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "body_scene.hpp"
+#include "trajet/sim/run_observer.hpp"
 
 namespace trajet {
 namespace {
@@ -13,6 +14,13 @@ using test::BallOf;
 using test::final_of;
 using test::plane;
 using test::run_text;
+
+class LastSample : public RunObserver {
+ public:
+  RunWishes wishes() const override { return {.samples = true}; }
+  void sample(const Sample& sample) override { last = sample; }
+  Sample last{};
+};
 
 TEST(MeetingRules, WhatCannotAnswerEndsTheRunWithTheContact) {
   BallOf a{"a", 0.1, 1.0, {0, 0, 0}, {1, 0, 0}}, b{"b", 0.1, 1.0, {1, 0, 0}};
@@ -64,6 +72,10 @@ TEST(MeetingRules, APairMaySayWhatBecomesOfIt) {
   const RunResult stopped = run_text(text + "on_hit = \"stop\"\n");
   EXPECT_EQ(stopped.status, RunStatus::stopped);
   EXPECT_NEAR(stopped.end_time, 0.7, 1e-14);
+  LastSample samples;
+  run_text(text + "on_hit = \"stop\"\n", &samples);
+  EXPECT_EQ(samples.last.bodies.size(), 2u);  // the last row tells of all
+  EXPECT_EQ(samples.last.time, stopped.end_time);
 
   const RunResult plastic = run_text(text + "restitution = 0\n");
   EXPECT_EQ(plastic.status, RunStatus::finished) << plastic.failure;
