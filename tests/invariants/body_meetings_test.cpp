@@ -137,6 +137,40 @@ TEST(BodyMeetings, ErrorsThatGrowBeyondAllNumbersAreToldAsSuch) {
   EXPECT_LT(result.warnings.size(), 10u);
 }
 
+TEST(BodyMeetings, TimesOfChainsOfImpactsAreWithinTheirBounds) {
+  // of a coarse method against a fine one: errors of flights and of both bodies' states are carried through impacts
+  std::mt19937 random(2);
+  std::uniform_real_distribution<> mass(0.5, 2.0), aside(-0.1, 0.1);
+  double largest = 0.0;
+  int compared = 0;
+  for (int k = 0; k < 40; ++k) {
+    const std::string pulled = "acceleration = \"-4*r - 0.3*norm(v)*v\"\n";
+    std::string balls;
+    for (int i = 0; i < 3; ++i)
+      balls += BallOf{"b" + std::to_string(i),
+                      0.2,
+                      mass(random),
+                      {i - 1.0, aside(random), aside(random)},
+                      {std::array{1.5, 0.2, -1.2}[static_cast<std::size_t>(i)], 0, 0},
+                      pulled}
+                   .text();
+    const auto run_with = [&](const char* method) {
+      return run_text("[time]\nend = 3\n[method]\n" + std::string(method) + balls);
+    };
+    const RunResult coarse = run_with("name = \"dopri5\"\nrtol = 1e-6\natol = 1e-6\n");
+    const RunResult fine = run_with("name = \"taylor\"\nrtol = 1e-13\natol = 1e-13\n");
+    for (std::size_t i = 0; i < std::min(coarse.impacts.size(), fine.impacts.size()); ++i) {
+      const Impact &a = coarse.impacts[i], &b = fine.impacts[i];
+      if (a.body != b.body || a.with != b.with) break;  // two that are nearer than their bounds
+      EXPECT_LE(std::abs(a.time - b.time), a.time_error_bound) << k << ' ' << i;
+      largest = std::max(largest, std::abs(a.time - b.time) / a.time_error_bound);
+      ++compared;
+    }
+  }
+  EXPECT_GT(compared, 200);
+  EXPECT_GT(largest, 0.05);  // measured: 0.2
+}
+
 TEST(BodyMeetings, OfACradleTheLastBallTakesTheVelocity) {
   for (const double gap : {0.0, 1e-3}) {
     std::string text = "[time]\nend = 1\n";
