@@ -46,7 +46,9 @@ TEST(MeetingRules, AStartInEachOtherIsAnErrorThatNamesBoth) {
 TEST(MeetingRules, PairsMeetIfBothSidesAgree) {
   const auto impacts = [](const std::string& of_a, const std::string& of_b) {
     const BallOf a{"a", 0.1, 1.0, {0, 0, 0}, {1, 0, 0}, of_a}, b{"b", 0.1, 1.0, {1, 0, 0}, {0, 0, 0}, of_b};
-    const RunResult result = run_text("[time]\nend = 4\n" + a.text() + b.text() + plane("wall", {2, 0, 0}, {-1, 0, 0}));
+    const BallOf aside{"c", 0.1, 1.0, {0, 5, 0}};  // some bodies do meet others
+    const RunResult result =
+        run_text("[time]\nend = 4\n" + a.text() + b.text() + aside.text() + plane("wall", {2, 0, 0}, {-1, 0, 0}));
     EXPECT_EQ(result.status, RunStatus::finished) << result.failure;
     std::ostringstream met;
     for (const Impact& impact : result.impacts) met << impact.body << '-' << impact.with << ' ';
