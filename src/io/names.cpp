@@ -24,6 +24,12 @@ std::string_view name(ImpactKind kind) {
       return "graze";
     case ImpactKind::rest:
       return "rest";
+    case ImpactKind::slide:
+      return "slide";
+    case ImpactKind::roll:
+      return "roll";
+    case ImpactKind::stick:
+      return "stick";
     case ImpactKind::leave:
       return "leave";
   }

@@ -111,8 +111,8 @@ BodyDefinition read_body(const TableReader& table) {
                "collides_with",
                "color"};
   keys.insert(keys.end(), kind.keys.begin(), kind.keys.end());
-  const Keys planned = {"friction"};
-  table.check_keys(keys, planned);
+  keys.insert(keys.end(), kFrictionKeys.begin(), kFrictionKeys.end());
+  table.check_keys(keys);
 
   BodyDefinition body;
   body.where = table.where("name");
@@ -123,6 +123,7 @@ BodyDefinition read_body(const TableReader& table) {
   read_rotation(table, body);
   if (kind.name != "hull" && table.has("points")) read_points(table, body);
   body.restitution = table.optional_scalar("restitution", kDimensionless);
+  body.friction = read_friction(table);
   body.collides_with = read_collides_with(table);
   body.color = read_color(table);
   return body;

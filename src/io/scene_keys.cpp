@@ -46,6 +46,11 @@ constexpr Optional<ObstacleDefinition> kObstacleKeys[] = {
     {"velocity", kSpeed, &ObstacleDefinition::velocity},
     {"angular_velocity", kAngularVelocity, &ObstacleDefinition::angular_velocity},
     {"restitution", kDimensionless, &ObstacleDefinition::restitution}};
+constexpr Optional<FrictionDefinition> kFrictionMembers[] = {
+    {"friction", kDimensionless, &FrictionDefinition::friction},
+    {"tangential_restitution", kDimensionless, &FrictionDefinition::tangential_restitution},
+    {"rolling_friction", kLength, &FrictionDefinition::rolling_friction},
+    {"spinning_friction", kLength, &FrictionDefinition::spinning_friction}};
 constexpr Optional<TimeOptions> kTimeKeys[] = {{"end", kTime, &TimeOptions::end},
                                                {"sample", kTime, &TimeOptions::sample}};
 constexpr Required<TimeOptions> kTimeStarts[] = {{"start", kTime, &TimeOptions::start}};
@@ -96,6 +101,17 @@ class KeySearch {
           if constexpr (requires { shape.scale; }) look_at(definition.name, "scale", kDimensionless, shape.scale);
         },
         definition.shape);
+  }
+
+  template <class Definition>
+  void look_at_friction(Definition& definition) {
+    for (const auto& [key, dimension, member] : kFrictionMembers)
+      if (is_it(definition.name, key))
+        take(dimension, [&definition, member = member](Expression value) {
+          FrictionDefinition changed = definition.friction ? *definition.friction : FrictionDefinition{};
+          changed.*member = std::move(value);
+          definition.friction = std::make_shared<const FrictionDefinition>(std::move(changed));
+        });
   }
 
   void look_at_plane(ObstacleDefinition& obstacle) {
@@ -149,10 +165,14 @@ SceneKey find_key(Scene& scene, std::string_view name, const SourceLocation& whe
   search.look_in(scene.method, "method", kMethodKeys);
   search.look_among(scene.bodies, kBodyStarts);
   search.look_among(scene.bodies, kBodyKeys);
-  for (BodyDefinition& body : scene.bodies) search.look_at_shape(body);
+  for (BodyDefinition& body : scene.bodies) {
+    search.look_at_shape(body);
+    search.look_at_friction(body);
+  }
   search.look_among(scene.obstacles, kObstacleKeys);
   for (ObstacleDefinition& obstacle : scene.obstacles) {
     search.look_at_shape(obstacle);
+    search.look_at_friction(obstacle);
     search.look_at_plane(obstacle);
     search.look_at_hit(obstacle, where);
   }

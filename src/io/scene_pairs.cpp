@@ -1,6 +1,7 @@
 #include <array>
 
 #include "scene_solids.hpp"
+#include "trajet/portable.hpp"
 
 namespace trajet::detail {
 
@@ -13,6 +14,19 @@ constexpr std::array<std::string_view, 1> kPlannedOnHit{"stick"};
 
 OnHit read_on_hit(const TableReader& table) {
   return std::array{OnHit::stop, OnHit::bounce, OnHit::pass}[table.choice("on_hit", kOnHit, 0, kPlannedOnHit)];
+}
+
+std::shared_ptr<const FrictionDefinition> read_friction(const TableReader& table) {
+  constexpr std::array<std::string_view, 3> kLaws{"stronge", "poisson", "newton"};
+  if (ranges::none_of(kFrictionKeys, [&](std::string_view key) { return table.has(key); })) return nullptr;
+  FrictionDefinition friction{table.optional_scalar("friction", kDimensionless),
+                              table.optional_scalar("tangential_restitution", kDimensionless),
+                              table.optional_scalar("rolling_friction", kLength),
+                              table.optional_scalar("spinning_friction", kLength)};
+  if (table.has("impact"))
+    friction.impact =
+        std::array{ImpactLaw::stronge, ImpactLaw::poisson, ImpactLaw::newton}[table.choice("impact", kLaws, 0)];
+  return std::make_shared<const FrictionDefinition>(std::move(friction));
 }
 
 CollidesWith read_collides_with(const TableReader& table) {
@@ -31,16 +45,16 @@ CollidesWith read_collides_with(const TableReader& table) {
 }
 
 PairDefinition read_pair(const TableReader& table) {
-  constexpr std::array<std::string_view, 3> kKeys{"of", "on_hit", "restitution"};
-  constexpr std::array<std::string_view, 4> kPlanned{"friction", "tangential_restitution", "rolling_friction",
-                                                     "spinning_friction"};
-  table.check_keys(kKeys, kPlanned);
+  std::vector<std::string_view> keys{"of", "on_hit", "restitution"};
+  keys.insert(keys.end(), kFrictionKeys.begin(), kFrictionKeys.end());
+  table.check_keys(keys);
   const std::vector<std::string> names = table.texts("of");
   if (names.size() != 2) table.fail("of", "'of': two names expected, got " + std::to_string(names.size()));
   PairDefinition pair{.first = names[0], .second = names[1]};
   pair.where = table.where("of");
   if (table.has("on_hit")) pair.on_hit = read_on_hit(table);
   pair.restitution = table.optional_scalar("restitution", kDimensionless);
+  pair.friction = read_friction(table);
   return pair;
 }
 

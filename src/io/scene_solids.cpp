@@ -171,7 +171,7 @@ ObstacleDefinition read_obstacle(const TableReader& table) {
   const ObstacleKind& kind = obstacle_kinds()[table.choice("shape", shapes, 0)];
 
   const Keys common = {"name", "shape", "on_hit", "restitution", "color", "velocity", "angular_velocity"};
-  const Keys planned = {"friction"};
+  const Keys friction(kFrictionKeys.begin(), kFrictionKeys.end());
   const std::string with_shape = table.title() + " of shape " + std::string(kind.name);
   TableReader titled = table.titled(with_shape);
   const bool has_center = !kind.center.empty();
@@ -179,9 +179,8 @@ ObstacleDefinition read_obstacle(const TableReader& table) {
   const Keys turned = kind.name == "plane" ? Keys{} : Keys{"orientation"};
   const bool may_be_hollow = ranges::find(kHollow, kind.name) != kHollow.end();
   const bool may_be_round = ranges::find(kRounded, kind.name) != kRounded.end();
-  titled.check_keys(common + (has_center ? Keys{kind.center} : Keys{}) + kind.keys + turned +
-                        (may_be_hollow ? Keys{"inside"} : Keys{}) + (may_be_round ? Keys{"rounding"} : Keys{}),
-                    planned);
+  titled.check_keys(common + friction + (has_center ? Keys{kind.center} : Keys{}) + kind.keys + turned +
+                    (may_be_hollow ? Keys{"inside"} : Keys{}) + (may_be_round ? Keys{"rounding"} : Keys{}));
 
   ObstacleDefinition obstacle{.name = table.text("name"), .shape = PointShape{}};
   obstacle.where = table.where("name");
@@ -198,6 +197,7 @@ ObstacleDefinition read_obstacle(const TableReader& table) {
   if (table.has("angular_velocity")) obstacle.angular_velocity = table.vector("angular_velocity", kAngularVelocity);
   obstacle.on_hit = read_on_hit(table);
   if (table.has("restitution")) obstacle.restitution = table.scalar("restitution", kDimensionless);
+  obstacle.friction = read_friction(table);
   obstacle.color = read_color(table);
   return obstacle;
 }

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "restitution_maker.hpp"
 #include "solid_maker.hpp"
+#include "surface_maker.hpp"
 #include "trajet/geom/compound.hpp"
 #include "trajet/geom/mass_properties.hpp"
 #include "trajet/portable.hpp"
@@ -130,6 +130,7 @@ World::Body make_body(const BodyDefinition& definition, const SceneNumbers& numb
   if (body.rotation && is_turned_by_impacts(definition, body.solid, numbers))
     body.inertia = inertia(definition, body.solid, numbers);
   set_restitution(definition.restitution, "body '" + definition.name + "'", numbers, body.surface);
+  set_friction(definition.friction, "body '" + definition.name + "'", numbers, body.surface);
   for (const NamedExpression& point : definition.points)
     body.points.push_back(
         {point.name, numbers.vector(point.value, "point '" + point.name + "'" + of_body(definition))});

@@ -3,9 +3,9 @@
 #include <utility>
 
 #include "drive_maker.hpp"
-#include "restitution_maker.hpp"
 #include "scene_numbers.hpp"
 #include "solid_maker.hpp"
+#include "surface_maker.hpp"
 #include "trajet/portable.hpp"
 
 namespace trajet {
@@ -28,6 +28,7 @@ void make_obstacles(const Scene& scene, const ParameterSet& parameters, World& w
     std::vector<World::Obstacle> made = make_obstacles(obstacle, numbers, at_start);
     Surface surface{.on_hit = obstacle.on_hit};
     set_restitution(obstacle.restitution, "obstacle '" + obstacle.name + "'", numbers, surface);
+    set_friction(obstacle.friction, "obstacle '" + obstacle.name + "'", numbers, surface);
     if (obstacle.restitution && obstacle.on_hit != OnHit::bounce && !is_in_pair(scene, obstacle.name))
       world.warnings.push_back("obstacle '" + obstacle.name +
                                "' has a restitution, which nothing needs: its on_hit is not \"bounce\"");

@@ -1,9 +1,9 @@
 #include "pair_maker.hpp"
+#include "surface_maker.hpp"
 
 #include <algorithm>
 #include <string_view>
 
-#include "restitution_maker.hpp"
 #include "trajet/portable.hpp"
 #include "trajet/text/did_you_mean.hpp"
 
@@ -58,6 +58,7 @@ void make_pairs(const Scene& scene, const SceneNumbers& numbers, World& world) {
     const auto change = [&](Surface& surface) {
       if (pair.on_hit) surface.on_hit = *pair.on_hit;
       set_restitution(pair.restitution, "the pair " + names, numbers, surface);
+      set_friction(pair.friction, "the pair " + names, numbers, surface);
     };
     Named first = find(world, pair.first, pair.where), second = find(world, pair.second, pair.where);
     if (first.bodies.empty()) std::swap(first, second);

@@ -87,10 +87,9 @@ class UnitCheck {
       check(obstacle.velocity, kSpeed);
       check(obstacle.angular_velocity, kAngularVelocity);
       if (obstacle.orientation) check_orientation(*obstacle.orientation);
-      if (obstacle.restitution) require_dimension(*obstacle.restitution, kDimensionless, at_impact());
+      check_surface(obstacle);
     }
-    for (const PairDefinition& pair : scene_.pairs)
-      if (pair.restitution) require_dimension(*pair.restitution, kDimensionless, at_impact());
+    for (const PairDefinition& pair : scene_.pairs) check_surface(pair);
     for (const StateDefinition& state : scene_.states) check_rate(state);
     for (const EventDefinition& event : scene_.events) {
       measure(event.when, global());
@@ -133,9 +132,19 @@ class UnitCheck {
   /// A direction may have any length, in any unit.
   void check_direction(const Expression& value) const { measure(value, global()); }
 
+  template <class Definition>
+  void check_surface(const Definition& definition) const {
+    if (definition.restitution) require_dimension(*definition.restitution, kDimensionless, at_impact());
+    if (!definition.friction) return;
+    check(definition.friction->friction, kDimensionless);
+    check(definition.friction->tangential_restitution, kDimensionless);
+    check(definition.friction->rolling_friction, kLength);
+    check(definition.friction->spinning_friction, kLength);
+  }
+
   void check_body(const BodyDefinition& body) const {
     std::visit([this](const auto& shape) { check_shape(shape); }, body.shape);
-    if (body.restitution) require_dimension(*body.restitution, kDimensionless, at_impact());
+    check_surface(body);
     check(body.rounding, kLength);
     check(body.position, kLength);
     check(body.velocity, kSpeed);

@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include "trajet/portable.hpp"
 #include "trajet/scene/world.hpp"
 
@@ -9,6 +11,9 @@ const World::Body& body(const World& world, int index) { return world.bodies[sta
 bool lets(const Company& company, int other) {
   return company.has_all_bodies || ranges::binary_search(company.bodies, other);
 }
+
+/// The geometric mean with the sign of both; of numbers of opposite signs 0.
+double mean_of_signs(double a, double b) { return a * b > 0.0 ? std::copysign(std::sqrt(a * b), a) : 0.0; }
 
 }  // namespace
 
@@ -32,9 +37,16 @@ Surface World::surface_of_bodies(int first, int second) const {
   const auto own = body_pairs.find(std::minmax(first, second));
   if (own != body_pairs.end()) return own->second;
   const Surface &a = body(*this, first).surface, &b = body(*this, second).surface;
-  return {.on_hit = OnHit::bounce,
-          .restitution = RestitutionLaw::mean(a.restitution, b.restitution),
-          .restitution_where = b.restitution_where.line > 0 ? b.restitution_where : a.restitution_where};
+  Surface surface{.on_hit = OnHit::bounce,
+                  .restitution = RestitutionLaw::mean(a.restitution, b.restitution),
+                  .restitution_where = b.restitution_where.line > 0 ? b.restitution_where : a.restitution_where,
+                  .friction = std::sqrt(a.friction * b.friction),
+                  .rolling_friction = std::sqrt(a.rolling_friction * b.rolling_friction),
+                  .spinning_friction = std::sqrt(a.spinning_friction * b.spinning_friction),
+                  .impact = a.impact != ImpactLaw::stronge ? a.impact : b.impact};
+  if (a.tangential_restitution && b.tangential_restitution)
+    surface.tangential_restitution = mean_of_signs(*a.tangential_restitution, *b.tangential_restitution);
+  return surface;
 }
 
 }  // namespace trajet

@@ -142,6 +142,21 @@ struct CollidesWith {
   SourceLocation where{};
 };
 
+enum class OnHit { stop, bounce, pass };
+
+/// What ends the restitution of an impact with friction: the work that compression has done times e^2 is given back
+/// (Stronge), its impulse times e (Poisson), or the normal speed times e (Newton).
+enum class ImpactLaw { stronge, poisson, newton };
+
+/// How a surface resists what slides, rolls or spins on it. What is left out is 0, or as friction alone decides.
+struct FrictionDefinition {
+  std::optional<Expression> friction{};                ///< Coulomb's coefficient, >= 0
+  std::optional<Expression> tangential_restitution{};  ///< -1..1, of the slip at the point of contact that grips
+  std::optional<Expression> rolling_friction{};        ///< m, >= 0: torque over normal force
+  std::optional<Expression> spinning_friction{};       ///< m, >= 0: the same about the normal
+  std::optional<ImpactLaw> impact{};
+};
+
 /// A moving body. Its name is usable in every law as NAME.r, NAME.vx, ….
 struct BodyDefinition {
   std::string name;
@@ -173,6 +188,7 @@ struct BodyDefinition {
   /// Of its surface, for impacts with other bodies, 0..1; may be a formula of `u`, the speed of approach along the
   /// normal, m/s; none: 1
   std::optional<Expression> restitution{};
+  std::shared_ptr<const FrictionDefinition> friction{};  ///< of its surface, for impacts with other bodies
   CollidesWith collides_with{};
   std::optional<RgbColor> color{};  ///< in pictures; none: one that tells bodies apart
   SourceLocation where{};
@@ -184,8 +200,6 @@ struct ExactOrientation {
   OrientationDefinition value;
   SourceLocation where{};
 };
-
-enum class OnHit { stop, bounce, pass };
 
 /// The axis of the world that points up in pictures. Nothing in a motion depends on it.
 enum class UpAxis { y, z };
@@ -210,6 +224,7 @@ struct ObstacleDefinition {
   std::optional<RgbColor> color{};  ///< in pictures; none: grey
   /// 0..1, for bounce; may be a formula of `u`, the speed of approach along the normal, m/s; none: 1
   std::optional<Expression> restitution{};
+  std::shared_ptr<const FrictionDefinition> friction{};  ///< of a hundred thousand obstacles few have one
   SourceLocation where{};
 };
 
@@ -218,6 +233,7 @@ struct PairDefinition {
   std::string first, second;                ///< a body and another body or an obstacle
   std::optional<OnHit> on_hit{};            ///< none: of bodies bounce, else the obstacle's
   std::optional<Expression> restitution{};  ///< as the obstacle's; none: of bodies the mean, else the obstacle's
+  std::shared_ptr<const FrictionDefinition> friction{};  ///< what it leaves out is as with restitution
   SourceLocation where{};
 };
 

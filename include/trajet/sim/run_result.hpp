@@ -22,7 +22,19 @@ enum class ImpactKind {
   hit,    ///< touches and crosses, or bounces
   graze,  ///< touches without crossing
   rest,   ///< bouncing has ended: the body stays in contact
+  slide,  ///< it stays in contact and slides, against friction
+  roll,   ///< it stays in contact and rolls without slip
+  stick,  ///< it is held where it hit
   leave,  ///< contact ends
+};
+
+/// A contact that lasts, in one way.
+struct ContactSpan {
+  double from = 0.0;           ///< s, of the scene's clock
+  std::optional<double> to{};  ///< none: it lasts at the end of the run
+  std::string body;
+  std::string with;                    ///< an obstacle
+  ImpactKind mode = ImpactKind::rest;  ///< rest, slide, roll or stick
 };
 
 /// The motion of the other body of an impact of two. World frame, SI units.
@@ -51,6 +63,7 @@ struct Impact {
   double time_error_bound = 0.0;             ///< s
   std::optional<TouchedFeatures> touched{};  ///< of a hit or a graze: what touched; `point` is in the middle
   std::optional<ImpactPartner> partner{};    ///< where a body was met
+  std::optional<int> group{};                ///< one number for the impacts that were resolved together
 };
 
 /// A `when` crossed zero, or a law that switches at a zero of the state `sticks` there or `slips` off it.
@@ -120,8 +133,9 @@ struct RunResult {
   double end_time = 0.0;
   double elapsed = 0.0;  ///< s from the start to the end; negative backward in time
   std::vector<NamedValue> parameters;
-  std::vector<Impact> impacts;      ///< none where an observer has taken the records
-  std::vector<EventRecord> events;  ///< likewise
+  std::vector<Impact> impacts;        ///< none where an observer has taken the records
+  std::vector<EventRecord> events;    ///< likewise
+  std::vector<ContactSpan> contacts;  ///< those that last, in the order of their beginnings
   /// If empty, no impact is missing between the start and the end.
   std::vector<UnresolvedContact> unresolved;
   Sample final;

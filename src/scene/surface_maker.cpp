@@ -1,4 +1,4 @@
-#include "restitution_maker.hpp"
+#include "surface_maker.hpp"
 
 #include "trajet/law/program_builder.hpp"
 #include "trajet/portable.hpp"
@@ -27,6 +27,21 @@ void set_restitution(const std::optional<Expression>& formula, const std::string
   if (!formula) return;
   surface.restitution = make_restitution(*formula, what, numbers);
   surface.restitution_where = formula->where();
+}
+
+void set_friction(const std::shared_ptr<const FrictionDefinition>& definition, const std::string& what,
+                  const SceneNumbers& numbers, Surface& surface) {
+  if (!definition) return;
+  const auto set = [&](const std::optional<Expression>& given, const char* key, double& value) {
+    if (given) value = numbers.not_negative(*given, std::string(key) + " of " + what);
+  };
+  set(definition->friction, "friction", surface.friction);
+  set(definition->rolling_friction, "rolling_friction", surface.rolling_friction);
+  set(definition->spinning_friction, "spinning_friction", surface.spinning_friction);
+  if (definition->tangential_restitution)
+    surface.tangential_restitution =
+        numbers.within(*definition->tangential_restitution, -1.0, 1.0, "tangential_restitution of " + what);
+  if (definition->impact) surface.impact = *definition->impact;
 }
 
 }  // namespace trajet
