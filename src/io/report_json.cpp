@@ -81,6 +81,14 @@ Json object(const BodyState& state) {
   return json;
 }
 
+Json object(const ContactSpan& contact) {
+  return {{"from", contact.from},
+          {"to", contact.to ? Json(*contact.to) : Json()},
+          {"body", contact.body},
+          {"with", contact.with},
+          {"mode", name(contact.mode)}};
+}
+
 }  // namespace
 
 void write_report_json(const RunResult& result, const std::function<void(std::string_view)>& write) {
@@ -103,6 +111,12 @@ void write_report_json(const RunResult& result, const RunRecords& records,
                [&](const auto& add) { records.each_impact([&](const Impact& impact) { add(object(impact)); }); });
   writer.array("events", [&](const auto& add) {
     records.each_event([&](const EventRecord& event) { add(detail::event_json(event)); });
+  });
+  writer.array("contacts", [&](const auto& add) {
+    for (const ContactSpan& contact : result.contacts) add(object(contact));
+  });
+  writer.array("contacts", [&](const auto& add) {
+    for (const ContactSpan& contact : result.contacts) add(object(contact));
   });
   writer.member("verdict", result.unresolved.empty() ? "complete" : "unresolved");
   if (!result.unresolved.empty())

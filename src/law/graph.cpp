@@ -72,7 +72,7 @@ Graph::Graph(const Program& program) : Graph(program.input_count) {
 std::vector<int> Graph::insert(const Program& program) {
   std::vector<int> nodes(static_cast<std::size_t>(program.slot_count));  // of the slots
   const auto node_in = [&](std::int32_t slot) -> int& { return nodes[static_cast<std::size_t>(slot)]; };
-  for (int i = 0; i < input_count_; ++i) node_in(i) = i;
+  for (int i = 0; i < program.input_count; ++i) node_in(i) = i;
   for (const Program::Constant& each : program.constants) node_in(each.slot) = constant(each.value);
   for (const Instruction& i : program.instructions) {
     const auto* twins = ranges::find(kTwins, i.opcode, &Twins::both);

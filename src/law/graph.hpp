@@ -21,7 +21,7 @@ class Graph {
   /// The computations of a program, as it has them: nothing is simplified.
   explicit Graph(const Program& program);
 
-  /// Adds the computations of a program over the same inputs; the nodes of its outputs.
+  /// Adds the computations of a program over the same inputs, or the first of them; the nodes of its outputs.
   std::vector<int> insert(const Program& program);
   /// The derivative of a node where the inputs change at the rates that the nodes `of_inputs` have; none where an
   /// operation on the way has no derivative that is one of ours.

@@ -348,11 +348,18 @@ int ProgramBuilder::combine(Opcode opcode, int a, int b) {
   }
 }
 
+std::vector<int> ProgramBuilder::insert(const Program& program) { return graph_->insert(program); }
+
+std::optional<int> ProgramBuilder::derivative(int node, std::span<const int> of_inputs) {
+  return graph_->derivative(node, of_inputs);
+}
+
 void ProgramBuilder::add_output(const Value& value) {
   outputs_.insert(outputs_.end(), value.nodes.begin(), value.nodes.begin() + (value.is_vector ? 3 : 1));
 }
 
 Program ProgramBuilder::build() const { return graph_->build(outputs_); }
+Program ProgramBuilder::build(std::span<const int> nodes) const { return graph_->build(nodes); }
 
 std::variant<ExtendedConstant, Symbols::ConstantVector> evaluate_constant(const Expression& formula,
                                                                           const Symbols& constants) {

@@ -173,7 +173,8 @@ void ContactHandler::bounce(int index, Pair pair, Impact impact) {
     warn_of_hidden_ties(run_.world(), run_.encounters(), pair, impact, moving, run_.recorder());
   }
 
-  run_.lasting_contacts().release_by_speed(instant, pair.id.body);
+  if (const std::string failure = run_.lasting_contacts().release_by_speed(instant, pair.id.body); !failure.empty())
+    return run_.fail(t, describe_lasting(pair.id.body, failure));
   if (!rest(instant, pair, impact, restitution, !is_hit)) return;
   const bool stops = settle_other_contacts(run_.world(), run_.encounters(), pair, impact, instant, run_.recorder());
   ContactMemory memory = rebounded(pair.contact.memory);
@@ -250,41 +251,42 @@ bool ContactHandler::rest(Instant& instant, const Pair& pair, const Impact& impa
   const double t = instant.time();
   const RelativeMotion motion = run_.encounters().relative_motion(pair.id, t, instant.q, instant.rate());
   const double speed = std::max(0.0, impact.normal.dot(motion.velocity));
-  const double pull = -impact.normal.dot(motion.acceleration);
+  std::optional<RestingContact> contact =
+      run_.lasting_contacts().contact_at(instant, pair.id, impact.point, impact.normal);
+  const bool is_flat = contact && contact->patch.is_flat() && !obstacle.drive;
+  // what is curved presses by how fast the body moves along it
+  const double pull = !contact || is_flat ? -impact.normal.dot(motion.acceleration)
+                                          : run_.lasting_contacts().pull_on(instant, *contact);
   const double tolerance = pair.contact.memory.tolerance;
   const bool is_low =
       restitution < 1.0 ? is_hidden || is_below_flight(speed, pull, tolerance) : is_lying(speed, pull, tolerance);
   if (pull <= 0.0 || !is_low) return true;
-  if (obstacle.drive) {
-    run_.fail(t, "body '" + body.name + "' comes to rest on obstacle '" + obstacle.name +
-                     "', which moves: trajet cannot follow it there yet");
+  const auto fail = [&](const std::string& why) {
+    run_.fail(t, "body '" + body.name + "' comes to rest on obstacle '" + obstacle.name + "', " + why);
     return false;
-  }
-  if (!is_flat_at(obstacle.shape, impact.point, impact.normal)) {
-    run_.fail(t, "body '" + body.name + "' comes to rest on the curved or sharp part of obstacle '" + obstacle.name +
-                     "', where trajet cannot follow it");
-    return false;
-  }
-  PairId on = pair.id;
+  };
+  if (!contact) return fail("on a part of it where trajet cannot follow it");
   // a velocity so much smaller than it was is what rounding leaves of one that was stopped
   constexpr double kStopped = 1e-12;
   Vector3 along = instant.q.segment<3>(body.offset + 3);
   along -= along.dot(impact.normal) * impact.normal;
   const bool is_stopped = along.norm() <= kStopped * impact.velocity_before.norm();
-  if (bounding_radius(body.solid) > 0.0 && !is_stopped &&
+  if (is_flat && bounding_radius(body.solid) > 0.0 && !is_stopped &&
       moves_off(face_outline(obstacle.shape, impact.point, impact.normal), impact.position, along)) {
-    const RestingContact here{pair.id.body, pair.id.obstacle, body.offset, impact.normal, impact.point, impact.normal};
-    const std::optional<PairId> next = run_.lasting_contacts().continuation(here, instant.q);
-    if (!next) {
-      run_.fail(t, "body '" + body.name + "' slides over an edge of obstacle '" + obstacle.name +
-                       "' too slowly to leave it, where trajet cannot follow it");
-      return false;
+    if (const auto next = run_.lasting_contacts().continuation(*contact, instant.q)) {
+      contact = run_.lasting_contacts().contact_at(instant, *next, impact.point, impact.normal);
+    } else {
+      contact = run_.lasting_contacts().next_patch(instant, *contact);
     }
-    on = *next;
+    if (!contact) return fail("at an edge over which trajet cannot follow it");
   }
-  run_.lasting_contacts().begin(instant, on, impact, t + bouncing_time(speed, pull, restitution));
-  run_.lasting_contacts().release_by_force(instant, pair.id.body);
-  return true;
+  const std::string failure =
+      run_.lasting_contacts().begin(instant, *contact, impact, t + bouncing_time(speed, pull, restitution));
+  return failure.empty() || fail(failure);
+}
+
+std::string ContactHandler::describe_lasting(int body, const std::string& failure) const {
+  return "body '" + run_.world().bodies[static_cast<std::size_t>(body)].name + "' in contact: " + failure;
 }
 
 double ContactHandler::end_of_pull(const Course& moving, const Crossing& crossing) const {
@@ -308,8 +310,9 @@ void ContactHandler::handle_end(int index) {
   const int body = instant.contacts[static_cast<std::size_t>(crossing.index)].body;
   run_.recorder().sample(time, body, SamplePhase::before);
   run_.recorder().sample(time, body, SamplePhase::after);
-  run_.lasting_contacts().leave(instant, crossing.index, crossing.kind == Crossing::Kind::past_edge,
-                                crossing.error_bound + std::abs(time - crossing.time));
+  const std::string failure = run_.lasting_contacts().handle_end(instant, crossing.index, crossing.end,
+                                                                 crossing.error_bound + std::abs(time - crossing.time));
+  if (!failure.empty()) return run_.fail(time, describe_lasting(body, failure));
   run_.go_on(index, instant);
   run_.advance(index);
 }

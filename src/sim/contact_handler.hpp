@@ -18,6 +18,7 @@ class ContactHandler {
   void handle_end(int course);
 
  private:
+  std::string describe_lasting(int body, const std::string& failure) const;
   /// A time behind a contact's last at which the force surely points away from it: what has left then is not found in
   /// it again.
   double end_of_pull(const Course& moving, const Crossing& crossing) const;

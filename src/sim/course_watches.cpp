@@ -6,6 +6,14 @@
 #include "trajet/portable.hpp"
 
 namespace trajet {
+namespace {
+
+Crossing::Kind kind_of(ContactEnd end) {
+  if (end == ContactEnd::pull) return Crossing::Kind::pull;
+  return end == ContactEnd::past_edge ? Crossing::Kind::past_edge : Crossing::Kind::mode;
+}
+
+}  // namespace
 
 CourseWatches::CourseWatches(const World& world, int group, const HeldCourseLaw& law)
     : world_(world), group_(group), law_(law) {
@@ -24,15 +32,18 @@ void CourseWatches::watch_holders() {
 void CourseWatches::watch_contacts() {
   const std::vector<RestingContact>& contacts = law_.contacts();
   for (std::size_t i = 0; i < contacts.size(); ++i) {
+    if (!are_plain(contacts, contacts[i].body)) continue;
     const Shape& shape = world_.obstacles[static_cast<std::size_t>(contacts[i].obstacle)].shape;
     const ReleaseConditions conditions =
         release_conditions(group().law, shape, contacts[i], support_of(contacts, contacts[i].offset).blocked);
-    const auto watch = [&](Crossing::Kind kind, const Program& condition) {
-      watches_.push_back({kind, static_cast<int>(i), EventWatch(condition, CrossingDirection::rising)});
+    const auto watch = [&](ContactEnd end, const Program& condition) {
+      watches_.push_back({kind_of(end), static_cast<int>(i), EventWatch(condition, CrossingDirection::rising), end});
     };
-    watch(Crossing::Kind::pull, conditions.pull);
-    for (const Program& condition : conditions.past_edges) watch(Crossing::Kind::past_edge, condition);
+    watch(ContactEnd::pull, conditions.pull);
+    for (const Program& condition : conditions.past_edges) watch(ContactEnd::past_edge, condition);
   }
+  for (const ContactEndCondition& end : law_.ends())
+    watches_.push_back({kind_of(end.end), end.contact, EventWatch(end.program, CrossingDirection::rising), end.end});
 }
 
 void CourseWatches::watch_holds() {
@@ -62,7 +73,7 @@ Crossing CourseWatches::next(const Segment<>& segment) const {
     const double ahead = direction * (next.time - watch.watch.next().time);
     if (ahead < 0.0 || (ahead == 0.0 && first != nullptr)) continue;
     first = &watch;
-    next = {watch.watch.next().time, watch.kind, watch.index, watch.watch.next().error_bound};
+    next = {watch.watch.next().time, watch.kind, watch.index, watch.watch.next().error_bound, watch.end};
   }
   if (first == nullptr) return next;
   // of what cannot be told apart in time, the one that stands first is the next
@@ -73,6 +84,7 @@ Crossing CourseWatches::next(const Segment<>& segment) const {
   const Watch& now = *ranges::find_if(watches_, is_now);
   next.kind = now.kind;
   next.index = now.index;
+  next.end = now.end;
   return next;
 }
 

@@ -51,6 +51,7 @@ class CourseWatches {
     Crossing::Kind kind;
     int index;
     EventWatch watch;
+    ContactEnd end = ContactEnd::pull;  // of a lasting contact
   };
 
   /// The place of an event's watch.

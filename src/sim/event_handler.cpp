@@ -99,7 +99,8 @@ void EventHandler::set(int index, int event_index, double time) {
   const Eigen::VectorXd rate = moving.rate(time, instant.before());
   instant.derivative = derivative_of_set(event, instant, rate);
   moving.take_event(event_index);
-  run_.lasting_contacts().release_after_set(instant);
+  if (const std::string failure = run_.lasting_contacts().release_after_set(instant); !failure.empty())
+    return run_.fail(time, "behind event '" + event.name + "' a body in contact: " + failure);
   run_.go_on(index, instant);
   moving.turn_event(event_index, instant, rate);
   for (const int body : moving.group().bodies) {

@@ -6,6 +6,22 @@
 
 namespace trajet {
 
+namespace {
+
+/// What ends a body's contacts, counted among all.
+void add_ends(std::vector<ContactEndCondition> own, const std::vector<RestingContact>& contacts, int body,
+              std::vector<ContactEndCondition>& ends) {
+  std::vector<int> places;
+  for (std::size_t i = 0; i < contacts.size(); ++i)
+    if (contacts[i].body == body) places.push_back(static_cast<int>(i));
+  for (ContactEndCondition& end : own) {
+    end.contact = places[static_cast<std::size_t>(end.contact)];
+    ends.push_back(std::move(end));
+  }
+}
+
+}  // namespace
+
 Support support_of(const std::vector<RestingContact>& contacts, int offset) {
   std::vector<Vector3> normals;
   for (const RestingContact& contact : contacts)
@@ -18,7 +34,8 @@ HeldCourseLaw::HeldCourseLaw(const World& world, int group)
 
 bool HeldCourseLaw::take(const std::vector<RestingContact>& contacts, std::vector<EventHold> holds) {
   const auto same = [](const RestingContact& a, const RestingContact& b) {
-    return a.body == b.body && a.obstacle == b.obstacle && a.normal == b.normal && a.point == b.point;
+    const bool is_same = a.body == b.body && a.obstacle == b.obstacle && a.is_plain == b.is_plain && a.mode == b.mode;
+    return is_same && a.unknowns == b.unknowns && (!a.is_plain || (a.normal == b.normal && a.point == b.point));
   };
   const bool are_others = !ranges::equal(contacts_, contacts, same) ||
                           !ranges::equal(holds_, holds, {}, &EventHold::event, &EventHold::event);
@@ -33,7 +50,8 @@ bool HeldCourseLaw::take(const std::vector<RestingContact>& contacts, std::vecto
       if (contact.offset == offset) contact.release = *release++;
   }
   held_.reset();
-  if (!contacts_.empty() || !holds_.empty()) held_ = std::make_unique<ProgramSystem>(with(contacts_, holds_));
+  ends_.clear();
+  if (!contacts_.empty() || !holds_.empty()) held_ = std::make_unique<ProgramSystem>(with(contacts_, holds_, &ends_));
   return true;
 }
 
@@ -41,9 +59,17 @@ bool HeldCourseLaw::is_held(int event) const {
   return ranges::any_of(holds_, [event](const EventHold& hold) { return hold.event == event; });
 }
 
-Program HeldCourseLaw::with(const std::vector<RestingContact>& contacts, const std::vector<EventHold>& holds) const {
+Program HeldCourseLaw::with(const std::vector<RestingContact>& contacts, const std::vector<EventHold>& holds,
+                            std::vector<ContactEndCondition>* ends) const {
   Program law = group().law;
   for (const int body : group().bodies) {
+    if (!are_plain(contacts, body)) {
+      std::optional<ContactLaw> sustained = law_with_contacts(world_, law, contacts, body);
+      if (!sustained) continue;
+      law = std::move(sustained->law);
+      if (ends != nullptr) add_ends(std::move(sustained->ends), contacts, body, *ends);
+      continue;
+    }
     const int offset = world_.bodies[static_cast<std::size_t>(body)].offset;
     for (const Vector3& direction : support_of(contacts, offset).blocked) law = hold(law, offset, direction);
   }

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "event_hold.hpp"
+#include "sustained.hpp"
 #include "trajet/collide/sustain/resting_contact.hpp"
 #include "trajet/scene/program_system.hpp"
 #include "trajet/scene/world.hpp"
@@ -23,8 +24,11 @@ class HeldCourseLaw {
   /// From now on it is these that hold. Whether they are others than before.
   bool take(const std::vector<RestingContact>& contacts, std::vector<EventHold> holds);
   bool is_held(int event) const;
-  /// The group's law with contacts and holds.
-  Program with(const std::vector<RestingContact>& contacts, const std::vector<EventHold>& holds) const;
+  /// What ends the contacts that are not plain: their `contact` counts `contacts`.
+  const std::vector<ContactEndCondition>& ends() const { return ends_; }
+  /// The group's law with contacts and holds. `ends`: if not null, gets what ends the contacts that are not plain.
+  Program with(const std::vector<RestingContact>& contacts, const std::vector<EventHold>& holds,
+               std::vector<ContactEndCondition>* ends = nullptr) const;
   /// The law stays on the branches that are true between two times, s.
   void keep_within(double first, double last);
 
@@ -41,6 +45,7 @@ class HeldCourseLaw {
   std::unique_ptr<ProgramSystem> held_;  // with contacts or holds only
   std::vector<RestingContact> contacts_;
   std::vector<EventHold> holds_;
+  std::vector<ContactEndCondition> ends_;
 };
 
 }  // namespace trajet

@@ -1,5 +1,6 @@
 #include "instant.hpp"
 
+#include "trajet/law/evaluate.hpp"
 #include "trajet/portable.hpp"
 
 namespace trajet {
@@ -32,6 +33,14 @@ std::optional<Eigen::VectorX<Extended>> Instant::extended() const {
 }
 
 Eigen::VectorXd Instant::rate() const {
+  const bool all_plain = ranges::all_of(course_.group().bodies, [&](int body) { return are_plain(contacts, body); });
+  if (!all_plain) {
+    const Program law = course_.held_law().with(contacts, {});
+    Eigen::VectorXd rate(q.size());
+    Evaluator<double> evaluate(law);
+    evaluate(time_, q.data(), rate.data());
+    return rate;
+  }
   Eigen::VectorXd rate = course_.free_rate(time_, q);
   for (const int body : course_.group().bodies) {
     const int offset = course_.world().bodies[static_cast<std::size_t>(body)].offset;

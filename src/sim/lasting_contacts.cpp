@@ -5,6 +5,7 @@
 #include <variant>
 
 #include "impact_record.hpp"
+#include "sustained.hpp"
 #include "trajet/collide/sustain/rest.hpp"
 #include "trajet/geom/closest_point.hpp"
 #include "trajet/geom/distance.hpp"
@@ -32,17 +33,70 @@ Vector3 closest_point_of(const Shape& shape, const Vector3& p) {
 
 }  // namespace
 
-void LastingContacts::begin(Instant& instant, PairId id, const Impact& impact, double rest_time) {
+std::optional<RestingContact> LastingContacts::contact_at(const Instant& instant, PairId id, const Vector3& point,
+                                                          const Vector3& normal) const {
   const int offset = body(id.body).offset;
+  const Vector3 position = instant.q.segment<3>(offset);
   const Vector3 velocity = instant.q.segment<3>(offset + 3);
-  const Vector3 along = velocity - velocity.dot(impact.normal) * impact.normal;
-  instant.contacts.push_back(
-      {id.body, id.obstacle, offset, impact.normal, ahead_of(impact.point, along), impact.normal});
-  instant.stop_blocked_velocity(body(id.body).offset);
-  coming_.insert({rest_time, id, impact.time_error_bound});
+  const Vector3 place = ahead_of(point, velocity - velocity.dot(normal) * normal);
+  const std::optional<FrameMotion> frame = encounters_.frame(id.obstacle, instant.time());
+  const auto seen = [&](const Vector3& p) { return frame ? frame->to_start(p) : p; };
+  const Vector3 seen_normal = frame ? Vector3(frame->R.transpose() * normal) : normal;
+  // at an edge, a flat face is that into which it moves
+  const Shape& shape = obstacle(id.obstacle).shape;
+  std::optional<SurfacePatch> patch = patch_at(shape, seen(place), seen_normal, seen(position));
+  if (!patch) patch = patch_at(shape, seen(point), seen_normal, seen(position));
+  if (!patch) return std::nullopt;
+  RestingContact contact{id.body, id.obstacle, offset, normal, place, normal};
+  contact.is_plain = is_plain_contact(world_, id.body, id.obstacle, *patch);
+  contact.patch = *patch;
+  return contact;
 }
 
-void LastingContacts::release_by_speed(Instant& instant, int moved) {
+double LastingContacts::pull_on(const Instant& instant, const RestingContact& contact) const {
+  const auto terms =
+      contact_terms(world_, instant.course().group().law, {contact}, contact.body, instant.time(), instant.q);
+  if (!terms) return 0.0;
+  const ContactTerms<double>& at = terms->contacts[0];
+  return -(at.normal.dot(at.slip_rate) + at.normal_rate.dot(at.slip));
+}
+
+std::string LastingContacts::begin(Instant& instant, RestingContact contact, const Impact& impact, double rest_time) {
+  const PairId id{contact.body, contact.obstacle};
+  instant.contacts.push_back(std::move(contact));
+  keep_kind(id, ImpactKind::rest);
+  if (are_plain(instant.contacts, id.body)) instant.stop_blocked_velocity(body(id.body).offset);
+  coming_.insert({rest_time, id, impact.time_error_bound});
+  return release_by_force(instant, id.body);
+}
+
+void LastingContacts::keep_kind(PairId id, ImpactKind kind) { kinds_[{id.body, id.obstacle}] = kind; }
+
+void LastingContacts::release_moving(Instant& instant, int moved) {
+  const int offset = body(moved).offset;
+  const double rounding =
+      64.0 * kUnitRoundoff * (instant.q.segment<3>(offset + 3).norm() + instant.before().segment<3>(offset + 3).norm());
+  const std::optional<BodyTerms<double>> terms = ContactSettling(world_, instant, moved).look();
+  if (!terms) return;
+  std::size_t number = terms->contacts.size();
+  for (std::size_t i = instant.contacts.size(); i-- > 0;) {
+    const RestingContact contact = instant.contacts[i];
+    if (contact.body != moved) continue;
+    const ContactTerms<double>& at = terms->contacts[--number];
+    const double speed = at.normal.dot(at.slip);
+    const double pull = -(at.normal.dot(at.slip_rate) + at.normal_rate.dot(at.slip));
+    const double tolerance = encounters_.pair({contact.body, contact.obstacle}).memory.tolerance;
+    if (std::abs(speed) <= rounding || is_below_flight(speed, std::max(0.0, pull), tolerance)) continue;
+    if (speed > 0.0) record(contact, ImpactKind::leave, instant.time(), instant.q);
+    release(instant, static_cast<int>(i));
+  }
+}
+
+std::string LastingContacts::release_by_speed(Instant& instant, int moved) {
+  if (!are_plain(instant.contacts, moved)) {
+    release_moving(instant, moved);
+    return release_by_force(instant, moved);
+  }
   const int offset = body(moved).offset;
   const double pull = instant.free_acceleration(offset).norm();
   // of the products of speeds and normals by which the velocity came about, one impact after the other
@@ -60,9 +114,29 @@ void LastingContacts::release_by_speed(Instant& instant, int moved) {
     release(instant, static_cast<int>(i));
   }
   instant.stop_blocked_velocity(offset);
+  return "";
 }
 
-void LastingContacts::release_by_force(Instant& instant, int held) {
+std::string LastingContacts::release_by_force(Instant& instant, int held, const std::vector<EndedMode>& ended) {
+  if (!are_plain(instant.contacts, held)) {
+    ContactSettling settling(world_, instant, held);
+    const std::string failure = settling.settle(ended, [&](int index) {
+      const RestingContact contact = instant.contacts[static_cast<std::size_t>(index)];
+      record(contact, ImpactKind::leave, instant.time(), instant.q);
+      release(instant, index);
+    });
+    for (const auto& [id, kind] : settling.kinds()) {
+      const ImpactKind was = kinds_[{id.body, id.obstacle}];
+      keep_kind(id, kind);
+      const bool is_to_come = ranges::any_of(coming_, [&, id = id](const Coming& each) { return each.id == id; });
+      if (kind == was || is_to_come) continue;
+      const auto contact = ranges::find_if(instant.contacts, [&, id = id](const RestingContact& each) {
+        return PairId{each.body, each.obstacle} == id;
+      });
+      record(*contact, kind, instant.time(), instant.q);
+    }
+    return failure;
+  }
   const int offset = body(held).offset;
   const Vector3 acceleration = instant.free_acceleration(offset);
   while (true) {
@@ -72,21 +146,21 @@ void LastingContacts::release_by_force(Instant& instant, int held) {
     const auto pulls = ranges::find_if(instant.contacts, [&](const RestingContact& contact) {
       return contact.body == held && (direction++)->dot(acceleration) > 0.0;
     });
-    if (pulls == instant.contacts.end()) return;
+    if (pulls == instant.contacts.end()) return "";
     record(*pulls, ImpactKind::leave, instant.time(), instant.q);
     release(instant, static_cast<int>(pulls - instant.contacts.begin()));
   }
 }
 
-void LastingContacts::release_after_set(Instant& instant) {
+std::string LastingContacts::release_after_set(Instant& instant) {
   const Eigen::VectorXd& before = instant.before();
   for (const int index : instant.course().group().bodies) {
     const auto is_of_body = [&](const RestingContact& contact) { return contact.body == index; };
     if (ranges::none_of(instant.contacts, is_of_body)) continue;
     const int offset = body(index).offset;
     if (instant.q.segment<3>(offset) == before.segment<3>(offset)) {
-      release_by_speed(instant, index);
-      release_by_force(instant, index);
+      if (const std::string failure = release_by_speed(instant, index); !failure.empty()) return failure;
+      if (const std::string failure = release_by_force(instant, index); !failure.empty()) return failure;
       continue;
     }
     for (auto contact = ranges::find_if(instant.contacts, is_of_body); contact != instant.contacts.end();
@@ -95,6 +169,7 @@ void LastingContacts::release_after_set(Instant& instant) {
       end(instant, static_cast<int>(contact - instant.contacts.begin()));
     }
   }
+  return "";
 }
 
 ContactMemory& LastingContacts::release(Instant& instant, int index) {
@@ -103,8 +178,11 @@ ContactMemory& LastingContacts::release(Instant& instant, int index) {
   ContactMemory memory = encounters_.pair(id).memory;
   memory.contact_time = instant.time();
   // what the body has drifted off the surface while it rested is still contact
-  const Vector3 position = instant.q.segment<3>(contact.offset);
-  const Vector3 point = position - bounding_radius(body(contact.body).solid) * contact.normal;
+  const std::optional<FrameMotion> frame = encounters_.frame(contact.obstacle, instant.time());
+  const Vector3 place = instant.q.segment<3>(contact.offset);
+  const Vector3 position = frame ? frame->to_start(place) : place;
+  const Vector3 normal = frame ? Vector3(frame->R.transpose() * contact.normal) : contact.normal;
+  const Vector3 point = position - bounding_radius(body(contact.body).solid) * normal;
   const Vector3 surface = closest_point_of(obstacle(contact.obstacle).shape, position);
   memory.tolerance = std::max(memory.tolerance, 2.0 * (surface - point).norm());
   end(instant, index);
@@ -113,7 +191,9 @@ ContactMemory& LastingContacts::release(Instant& instant, int index) {
 
 void LastingContacts::end(Instant& instant, int index) {
   const auto contact = instant.contacts.begin() + index;
-  std::erase_if(coming_, [&](const Coming& coming) { return coming.id == PairId{contact->body, contact->obstacle}; });
+  const PairId id{contact->body, contact->obstacle};
+  std::erase_if(coming_, [&](const Coming& coming) { return coming.id == id; });
+  recorder_.contact_ends(instant.time(), id);
   instant.contacts.erase(contact);
 }
 
@@ -125,9 +205,8 @@ void LastingContacts::record_until(double time) {
     const auto contact = ranges::find_if(course.held_law().contacts(), [&](const RestingContact& each) {
       return PairId{each.body, each.obstacle} == rest.id;
     });
-    Impact impact = describe(world_, *contact, ImpactKind::rest, rest.time, course.state(rest.time));
-    impact.time_error_bound = rest.time_error_bound;
-    recorder_.impact(impact);
+    record(*contact, kinds_[{rest.id.body, rest.id.obstacle}], rest.time, course.state(rest.time),
+           rest.time_error_bound);
   }
 }
 
@@ -136,6 +215,7 @@ void LastingContacts::record(const RestingContact& contact, ImpactKind kind, dou
   Impact impact = describe(world_, contact, kind, time, q);
   impact.time_error_bound = time_error_bound;
   recorder_.impact(impact);
+  if (kind != ImpactKind::leave) recorder_.contact(time, {contact.body, contact.obstacle}, kind);
 }
 
 bool LastingContacts::goes_on(const RestingContact& contact, int next, const Eigen::VectorXd& q) const {
@@ -195,30 +275,67 @@ std::optional<PairId> LastingContacts::continuation(const RestingContact& left, 
   return found != pairs.end() ? std::optional(found->id) : std::nullopt;
 }
 
-void LastingContacts::rest_on_continuation(Instant& instant, const RestingContact& left) {
+bool LastingContacts::rest_on_continuation(Instant& instant, const RestingContact& left) {
   const std::optional<PairId> found = continuation(left, instant.q);
-  if (!found) return;
+  if (!found) return false;
   const double radius = bounding_radius(body(left.body).solid);
   const Vector3 foot = instant.q.segment<3>(left.offset) - radius * left.normal;
-  RestingContact next = left;
-  next.obstacle = found->obstacle;
-  next.point = ahead_of(foot, instant.q.segment<3>(left.offset + 3));
-  record(next, ImpactKind::rest, instant.time(), instant.q);
-  instant.contacts.push_back({next.body, next.obstacle, next.offset, next.normal, next.point, next.normal});
-  const bool is_behind = radius == 0.0 && looks_down(obstacle(next.obstacle).shape, next.point, left.normal);
+  std::optional<RestingContact> next = contact_at(instant, *found, foot, left.normal);
+  if (!next) return false;
+  next->mode = left.mode;
+  keep_kind(*found, left.is_plain ? ImpactKind::rest : kinds_[{left.body, left.obstacle}]);
+  record(*next, kinds_[{found->body, found->obstacle}], instant.time(), instant.q);
+  const bool is_behind = radius == 0.0 && looks_down(obstacle(next->obstacle).shape, next->point, left.normal);
+  instant.contacts.push_back(std::move(*next));
   instant.memories.emplace_back(*found, ContactMemory{.side = is_behind ? -1 : 1, .contact_time = instant.time()});
+  return true;
 }
 
-void LastingContacts::leave(Instant& instant, int index, bool is_past_edge, double time_error_bound) {
+std::optional<RestingContact> LastingContacts::next_patch(const Instant& instant, const RestingContact& left) const {
+  const double radius = bounding_radius(body(left.body).solid);
+  if (radius == 0.0) return std::nullopt;
+  const Vector3 position = instant.q.segment<3>(left.offset);
+  const std::optional<FrameMotion> frame = encounters_.frame(left.obstacle, instant.time());
+  Vector3 velocity = instant.q.segment<3>(left.offset + 3);
+  if (frame) velocity -= frame->velocity_at(position);
+  const Vector3 ahead = position + (ahead_of(position, velocity) - position) * (radius / (radius + position.norm()));
+  const Vector3 seen = frame ? frame->to_start(ahead) : ahead;
+  const Shape& shape = obstacle(left.obstacle).shape;
+  const Vector3 foot = closest_point_of(shape, seen);
+  const Vector3 normal = (seen - foot).normalized() * left.patch.side;
+  constexpr double kTouch = 1e-6;
+  if (std::abs((seen - foot).norm() - radius) > kTouch * radius) return std::nullopt;
+  const std::optional<SurfacePatch> patch = patch_at(shape, foot, normal, seen);
+  if (!patch || patch->kind == left.patch.kind) return std::nullopt;
+  RestingContact next = left;
+  next.patch = *patch;
+  next.is_plain = is_plain_contact(world_, left.body, left.obstacle, *patch);
+  next.normal = frame ? Vector3(frame->R * normal) : normal;
+  next.point = frame ? frame->from_start(foot) : foot;
+  return next;
+}
+
+std::string LastingContacts::handle_end(Instant& instant, int index, ContactEnd end, double time_error_bound) {
+  if (!are_plain(instant.contacts, instant.contacts[static_cast<std::size_t>(index)].body))
+    ContactSettling(world_, instant, instant.contacts[static_cast<std::size_t>(index)].body).look();
   const RestingContact contact = instant.contacts[static_cast<std::size_t>(index)];
+  if (end != ContactEnd::pull && end != ContactEnd::past_edge)
+    return release_by_force(instant, contact.body, {{{contact.body, contact.obstacle}, end}});
+  if (end == ContactEnd::past_edge && !continuation(contact, instant.q)) {
+    if (std::optional<RestingContact> next = next_patch(instant, contact)) {
+      instant.contacts[static_cast<std::size_t>(index)] = *next;
+      return release_by_force(instant, contact.body);
+    }
+  }
   record(contact, ImpactKind::leave, instant.time(), instant.q, time_error_bound);
-  ContactMemory& memory = release(instant, index);
-  if (is_past_edge) {
+  release(instant, index);
+  if (end == ContactEnd::past_edge) {
     // beside a thin surface a point takes the side to which it falls: it does not go through
-    if (is_thin(obstacle(contact.obstacle).shape) && bounding_radius(body(contact.body).solid) == 0.0) memory.side = 0;
+    if (is_thin(obstacle(contact.obstacle).shape) && bounding_radius(body(contact.body).solid) == 0.0)
+      instant.memories.back().second.side = 0;
     rest_on_continuation(instant, contact);
   }
-  release_by_force(instant, contact.body);
+  return release_by_force(instant, contact.body);
 }
 
 }  // namespace trajet

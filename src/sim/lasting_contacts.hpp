@@ -1,9 +1,13 @@
 #pragma once
 
+#include <map>
 #include <optional>
 #include <set>
+#include <string>
 #include <tuple>
+#include <utility>
 
+#include "contact_settling.hpp"
 #include "encounters.hpp"
 #include "instant.hpp"
 #include "recorder.hpp"
@@ -19,19 +23,28 @@ class LastingContacts {
   LastingContacts(const World& world, const Recorder::Courses& courses, Encounters& encounters, Recorder& recorder)
       : world_(world), courses_(courses), encounters_(encounters), recorder_(recorder) {}
 
+  /// A contact in which a body might stay on an obstacle, where it touches that now; none where the surface is such
+  /// that trajet cannot follow it there.
+  std::optional<RestingContact> contact_at(const Instant& instant, PairId id, const Vector3& point,
+                                           const Vector3& normal) const;
+  /// The contact with the part of the same obstacle that goes on where a ball comes past the end of a patch.
+  std::optional<RestingContact> next_patch(const Instant& instant, const RestingContact& left) const;
+  /// How strongly the body is pressed on it, as its law has it without contacts: m/s^2 along the normal.
+  double pull_on(const Instant& instant, const RestingContact& contact) const;
   /// The body stays on the obstacle from the impact on. Its last flights, which nobody can tell from contact, would be
-  /// over at `rest_time`: then the rest is reported.
-  void begin(Instant& instant, PairId id, const Impact& impact, double rest_time);
+  /// over at `rest_time`: then the rest is reported. Why it cannot be followed; empty if it is.
+  std::string begin(Instant& instant, RestingContact contact, const Impact& impact, double rest_time);
   /// After an impact that gave a resting body its velocity: ends the contacts from or into which it moves now, and
   /// takes out of the velocity what the others do not let pass.
-  void release_by_speed(Instant& instant, int body);
-  /// Ends the contacts that would have to pull at the body.
-  void release_by_force(Instant& instant, int body);
+  std::string release_by_speed(Instant& instant, int body);
+  /// Ends the contacts that would have to pull at the body, and decides how the others go on. Why that cannot be
+  /// decided; empty if it is.
+  std::string release_by_force(Instant& instant, int body, const std::vector<EndedMode>& ended = {});
   /// Ends the contacts that an event's `set` has broken.
-  void release_after_set(Instant& instant);
-  /// Ends the contact of that index by itself: what it would have to pull, or an edge that the body has come to.
-  /// `time_error_bound`: of its end, s.
-  void leave(Instant& instant, int contact, bool is_past_edge, double time_error_bound);
+  std::string release_after_set(Instant& instant);
+  /// Ends the contact of that index by itself, or the way in which it lasts. `time_error_bound`: of its end, s. Why it
+  /// cannot be followed; empty if it is.
+  std::string handle_end(Instant& instant, int contact, ContactEnd end, double time_error_bound);
   /// Where the face of a contact goes on without a step ahead of the body, the pair with the obstacle on which it does.
   std::optional<PairId> continuation(const RestingContact& left, const Eigen::VectorXd& q) const;
   /// Whether a face on which the body slides goes on without a step on that obstacle, whose edge is nothing to hit.
@@ -40,6 +53,9 @@ class LastingContacts {
   void record_until(double time);
 
  private:
+  /// Takes the speed at which the contacts of a body, not all plain, depart or close.
+  void release_moving(Instant& instant, int body);
+  void keep_kind(PairId id, ImpactKind kind);
   /// Ends a contact; its pair remembers it.
   ContactMemory& release(Instant& instant, int contact);
   void end(Instant& instant, int contact);
@@ -49,7 +65,7 @@ class LastingContacts {
   bool goes_on(const RestingContact& contact, int next, const Eigen::VectorXd& q) const;
   /// Where a body slides off a face and another one goes on from there without a step, its contact with that one
   /// begins.
-  void rest_on_continuation(Instant& instant, const RestingContact& left);
+  bool rest_on_continuation(Instant& instant, const RestingContact& left);
   const World::Body& body(int index) const { return world_.bodies[static_cast<std::size_t>(index)]; }
   const World::Obstacle& obstacle(int index) const { return world_.obstacles[static_cast<std::size_t>(index)]; }
 
@@ -68,6 +84,7 @@ class LastingContacts {
   Encounters& encounters_;
   Recorder& recorder_;
   std::set<Coming> coming_;
+  std::map<std::pair<int, int>, ImpactKind> kinds_;  // of body and obstacle, as contacts last
 };
 
 }  // namespace trajet

@@ -156,8 +156,10 @@ void MeetingHandler::bounce(const Meeting& meeting, const Surface& surface, Impa
   bounce_bodies(world, meeting, restitution, first.error_columns(t), second.error_columns(t), instant_first,
                 instant_second, impact);
   run_.recorder().impact(impact);
-  run_.lasting_contacts().release_by_speed(instant_first, meeting.id.first);
-  run_.lasting_contacts().release_by_speed(instant_second, meeting.id.second);
+  for (const auto& [instant, moved] :
+       {std::pair(&instant_first, meeting.id.first), {&instant_second, meeting.id.second}})
+    if (const std::string failure = run_.lasting_contacts().release_by_speed(*instant, moved); !failure.empty())
+      return run_.fail(t, "body '" + body(moved).name + "' in contact: " + failure);
   const GapMotion after =
       gap_motion(world, meeting, instant_first.q, instant_first.rate(), instant_second.q, instant_second.rate());
   if (after.acceleration < 0.0 &&

@@ -105,6 +105,20 @@ void Recorder::put_on_clock(Impact& impact) const {
   if (!(impact.time_error_bound <= std::abs(world_.duration))) impact.time_error_bound = std::abs(world_.duration);
 }
 
+void Recorder::contact(double time, PairId id, ImpactKind mode) {
+  contact_ends(time, id);
+  open_contacts_[{id.body, id.obstacle}] = result_.contacts.size();
+  result_.contacts.push_back({world_.epoch + time, std::nullopt, world_.bodies[static_cast<std::size_t>(id.body)].name,
+                              world_.obstacles[static_cast<std::size_t>(id.obstacle)].name, mode});
+}
+
+void Recorder::contact_ends(double time, PairId id) {
+  const auto open = open_contacts_.find({id.body, id.obstacle});
+  if (open == open_contacts_.end()) return;
+  result_.contacts[open->second].to = world_.epoch + time;
+  open_contacts_.erase(open);
+}
+
 void Recorder::event(double time, const std::string& name, int direction, const std::string& law) {
   EventRecord event{world_.epoch + time, time, name, direction, law};
   observer_.event(event);

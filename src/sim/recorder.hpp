@@ -1,12 +1,15 @@
 #pragma once
 
+#include <map>
 #include <memory>
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "course.hpp"
+#include "instant.hpp"
 #include "time_limit.hpp"
 #include "trajet/scene/world.hpp"
 #include "trajet/sim/run_observer.hpp"
@@ -41,6 +44,9 @@ class Recorder {
   void impact(Impact impact);
   /// Impacts at one instant that were solved together.
   void impacts(std::vector<Impact> group);
+  /// From that time on a body is in contact with an obstacle in that way; or not any more.
+  void contact(double time, PairId id, ImpactKind mode);
+  void contact_ends(double time, PairId id);
   void event(double time, const std::string& name, int direction, const std::string& law = {});
   /// Whether the two meet, or when, cannot be decided from that time on.
   void unresolved(double time, const std::string& body, const std::string& with, const std::string& why);
@@ -77,6 +83,7 @@ class Recorder {
   long next_sample_ = 0;
   std::optional<double> last_sample_;  // s, of all bodies
   std::optional<Impact> last_impact_;
+  std::map<std::pair<int, int>, std::size_t> open_contacts_;  // of body and obstacle, in result_.contacts
 };
 
 }  // namespace trajet

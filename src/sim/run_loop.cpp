@@ -132,6 +132,7 @@ void RunLoop::handle(int index, const Incident& incident) {
       break;
     case Crossing::Kind::pull:
     case Crossing::Kind::past_edge:
+    case Crossing::Kind::mode:
       contacts_.handle_end(index);
       break;
     case Crossing::Kind::let_go:

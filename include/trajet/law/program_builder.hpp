@@ -2,7 +2,10 @@
 
 #include <array>
 #include <memory>
+#include <optional>
+#include <span>
 #include <variant>
+#include <vector>
 
 #include "trajet/law/expression.hpp"
 #include "trajet/law/program.hpp"
@@ -57,11 +60,19 @@ class ProgramBuilder {
   /// The node of an output of the program that was opened again.
   int output_of_base(int index) const;
 
+  /// Adds the computations of a program over the same inputs, or the first of them; the nodes of its outputs.
+  std::vector<int> insert(const Program& program);
+  /// The derivative of a node where the inputs change at the rates that the nodes `of_inputs` have; none where an
+  /// operation on the way has no derivative that is one of ours (a table).
+  std::optional<int> derivative(int node, std::span<const int> of_inputs);
+
   /// Appends one or three outputs.
   void add_output(const Value& value);
 
   /// The program that computes the outputs added so far, and nothing else.
   Program build() const;
+  /// The program that computes some nodes.
+  Program build(std::span<const int> nodes) const;
 
  private:
   std::unique_ptr<detail::Graph> graph_;

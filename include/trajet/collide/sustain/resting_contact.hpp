@@ -2,21 +2,28 @@
 
 #include <vector>
 
+#include "trajet/collide/sustain/contact_forces.hpp"
 #include "trajet/geom/shapes.hpp"
+#include "trajet/geom/surface_patch.hpp"
 #include "trajet/law/program.hpp"
 #include "trajet/math/vector.hpp"
 
 namespace trajet {
 
-/// A body that stays on a flat obstacle, without friction: its velocity and acceleration have no part along the normal.
+/// A body that stays on an obstacle.
 struct RestingContact {
   int body = 0;      ///< in World::bodies
   int obstacle = 0;  ///< in World::obstacles
   int offset = 0;    ///< of the body in the group's state
-  Vector3 normal;    ///< unit, away from the obstacle
+  Vector3 normal;    ///< unit, away from the obstacle; of a curved or moving one where it was looked at last
   Vector3 point;     ///< of the face on which the body stays, m
   Vector3 release =
       normal;  ///< the contact would have to pull where release . a > 0, a the acceleration without contacts
+  /// Whether it is on a flat face at rest, without friction: all it does is to hold the body back along its normal.
+  bool is_plain = true;
+  SurfacePatch patch{};                    ///< on which the body stays, where the obstacle stands at the start
+  ContactMode mode{};                      ///< how the contact lasts
+  std::vector<ContactUnknown> unknowns{};  ///< of its forces; `contact` counts the contacts of the body
 };
 
 /// What the contacts of one body on several obstacles with the normals n_i do together.

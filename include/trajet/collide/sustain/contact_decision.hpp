@@ -1,0 +1,44 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "trajet/collide/sustain/contact_forces.hpp"
+
+namespace trajet {
+
+/// What is known of a contact whose mode is to be decided.
+struct ContactQuestion {
+  FrictionCoefficients friction{};
+  bool turns = false;            ///< contacts can make the body turn
+  bool may_go_straight = false;  ///< what slides here may do so in a constant direction
+  ContactMode before{};          ///< how it lasted so far
+  bool slip_stops = false;       ///< what moved has stopped, whatever rounding leaves of it
+  bool roll_stops = false;
+  bool spin_stops = false;
+  bool slip_bends = false;  ///< it moves in a direction that is not constant
+  bool roll_bends = false;
+  double speed = 0.0;       ///< m/s: the scale of the speeds at the contact
+  double radius = 0.0;      ///< m, of the body
+  double time_scale = 0.0;  ///< s, of the run
+};
+
+/// The modes by the velocities alone: what does not move is held.
+std::vector<ContactMode> modes_by_velocity(const BodyTerms<double>& terms,
+                                           const std::vector<ContactQuestion>& questions);
+
+/// How contacts go on.
+struct ContactDecision {
+  std::vector<ContactMode> modes{};
+  std::vector<ContactUnknown> unknowns{};
+  std::vector<ContactForce<double>> forces{};
+  int pulling = -1;       ///< of the contacts that would have to pull, the one that pulls most; else -1
+  std::string failure{};  ///< why no mode fits
+};
+
+/// Decides which resistances hold: all that do not move, but for those whose limit the forces pass; these begin to move
+/// in the direction in which the motion then accelerates.
+ContactDecision decide_contacts(const BodyTerms<double>& terms, const std::vector<ContactQuestion>& questions,
+                                std::vector<ContactMode> modes);
+
+}  // namespace trajet

@@ -1,0 +1,90 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "trajet/collide/sustain/contact_forces.hpp"
+#include "trajet/collide/sustain/contact_mode.hpp"
+#include "trajet/geom/surface_patch.hpp"
+#include "trajet/law/evaluate.hpp"
+#include "trajet/law/program.hpp"
+#include "trajet/rigid/orientation.hpp"
+
+namespace trajet {
+
+/// A point or a ball in contact, and where its numbers lie in the state of its group.
+struct SustainedBody {
+  int offset = 0;                             ///< of position and velocity
+  int rotation_offset = 0;                    ///< of orientation and angular velocity, if it turns
+  std::optional<OrientationLayout> layout{};  ///< none: it does not turn
+  std::shared_ptr<const Program> mass{};      ///< kg; none: forces are per mass
+  std::optional<Matrix3> inertia{};           ///< kg m^2, body's frame; none: contacts do not turn it
+  double radius = 0.0;                        ///< m
+};
+
+/// A contact of it that lasts.
+struct SustainedContact {
+  SurfacePatch patch{};  ///< where the obstacle stands at the start
+  /// Of an obstacle that is driven: of t, the place of its pivot and its unit quaternion since the start.
+  std::shared_ptr<const Program> pose{};
+  Vector3 pivot = Vector3::Zero();  ///< at the start, m
+  bool turns = false;               ///< the obstacle
+  FrictionCoefficients friction{};
+  ContactMode mode{};
+};
+
+/// What may end the way in which a contact lasts.
+enum class ContactEnd {
+  pull,        ///< it would have to pull
+  past_edge,   ///< the body has come past the patch
+  slip_stops,  ///< what moved does so no more
+  roll_stops,
+  spin_stops,
+  slip_starts,  ///< friction does not hold any more
+  roll_starts,
+  spin_starts,
+  slip_bends,  ///< the direction is not constant
+  roll_bends,
+};
+
+/// A program of t and the group's state that becomes positive when that happens.
+struct ContactEndCondition {
+  int contact = 0;
+  ContactEnd end = ContactEnd::pull;
+  Program program{};
+};
+
+/// How a body moves at its contacts, as its group's law has it without their forces: a program, evaluated at states.
+class ContactMotion {
+ public:
+  /// None where a function on the way has no derivative among our operations (a table in a `position_rate`).
+  static std::optional<ContactMotion> make(const Program& law, const SustainedBody& body,
+                                           const std::vector<SustainedContact>& contacts);
+  BodyTerms<double> at(double t, const double* q);
+
+ private:
+  ContactMotion(Program program, std::size_t contacts)
+      : program_(std::make_shared<const Program>(std::move(program))), evaluate_(*program_), contacts_(contacts) {}
+
+  std::shared_ptr<const Program> program_;  // the evaluator keeps pointers to it
+  Evaluator<double> evaluate_;
+  std::size_t contacts_;
+};
+
+/// The law of a group with the forces of a body's contacts, and what ends them.
+struct ContactLaw {
+  Program law;
+  std::vector<ContactEndCondition> ends;
+};
+/// \param unknowns  as `independent_unknowns` gives them for the modes of the contacts
+std::optional<ContactLaw> make_contact_law(const Program& law, const SustainedBody& body,
+                                           const std::vector<SustainedContact>& contacts,
+                                           const std::vector<ContactUnknown>& unknowns);
+
+/// What forces of contacts at a body change: its rates of velocity and angular velocity in the rate of the group's
+/// state; impulses the same in the state itself.
+void add_forces(const SustainedBody& body, const BodyTerms<double>& terms,
+                const std::vector<ContactForce<double>>& forces, const double* q, double* changed);
+
+}  // namespace trajet
