@@ -27,7 +27,10 @@ std::string describe_restitution(const World::Obstacle& obstacle, const Surface&
 }  // namespace
 
 ContactHandler::ContactHandler(const RunControl& control)
-    : run_(control), last_impacts_(control.world().bodies.size()), last_bounces_(control.world().bodies.size()) {}
+    : run_(control),
+      last_impacts_(control.world().bodies.size()),
+      last_changes_(control.world().bodies.size()),
+      last_bounces_(control.world().bodies.size()) {}
 
 void ContactHandler::handle(int index, const Pair& met) {
   Course& moving = run_.course(index);
@@ -308,6 +311,8 @@ void ContactHandler::handle_end(int index) {
   const double time = crossing.kind == Crossing::Kind::pull ? end_of_pull(moving, crossing) : crossing.time;
   Instant instant(moving, time);
   const int body = instant.contacts[static_cast<std::size_t>(crossing.index)].body;
+  if (last_changes_[static_cast<std::size_t>(body)].count_at(time) > kMaxImpactsAtOnce)
+    return run_.fail(time, describe_lasting(body, "how it goes on changes without an end at one instant"));
   run_.recorder().sample(time, body, SamplePhase::before);
   run_.recorder().sample(time, body, SamplePhase::after);
   const std::string failure = run_.lasting_contacts().handle_end(instant, crossing.index, crossing.end,

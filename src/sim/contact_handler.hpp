@@ -51,6 +51,7 @@ class ContactHandler {
   };
 
   std::vector<AtOneInstant> last_impacts_;  // of each body
+  std::vector<AtOneInstant> last_changes_;  // of how its contacts last
   std::vector<Bounce> last_bounces_;        // of each body
 };
 

@@ -54,14 +54,8 @@ std::vector<ContactQuestion> ContactSettling::questions(const BodyTerms<double>&
                              .speed = speed_scale(terms.contacts[i]),
                              .radius = bounding_radius(body().solid),
                              .time_scale = std::abs(world_.duration)};
-    for (const EndedMode& each : ended) {
-      if (!(each.id == PairId{contact.body, contact.obstacle})) continue;
-      question.slip_stops = question.slip_stops || each.end == ContactEnd::slip_stops;
-      question.roll_stops = question.roll_stops || each.end == ContactEnd::roll_stops;
-      question.spin_stops = question.spin_stops || each.end == ContactEnd::spin_stops;
-      question.slip_bends = question.slip_bends || each.end == ContactEnd::slip_bends;
-      question.roll_bends = question.roll_bends || each.end == ContactEnd::roll_bends;
-    }
+    for (const EndedMode& each : ended)
+      if (each.id == PairId{contact.body, contact.obstacle}) question.ended.push_back(each.end);
     questions.push_back(question);
   }
   return questions;

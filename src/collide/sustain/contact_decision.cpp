@@ -28,6 +28,12 @@ Vector3 part(Way way, const Vector3& of_slip, const Vector3& of_turning, const V
   return way == Way::roll ? along_surface(of_turning, normal) : Vector3(of_turning.dot(normal) * normal);
 }
 
+ContactEnd start_of(Way way) {
+  return way == Way::slip   ? ContactEnd::slip_starts
+         : way == Way::roll ? ContactEnd::roll_starts
+                            : ContactEnd::spin_starts;
+}
+
 double coefficient(const ContactQuestion& question, Way way) {
   if (way == Way::slip) return question.friction.slip;
   if (!question.turns) return 0.0;
@@ -46,6 +52,8 @@ std::vector<FrictionCoefficients> friction_of(const std::vector<ContactQuestion>
   for (const ContactQuestion& question : questions) friction.push_back(question.friction);
   return friction;
 }
+
+constexpr double kBegins = 1e300;
 
 /// A resistance that holds, and how much more than its limit it would have to.
 struct Excess {
@@ -107,7 +115,9 @@ class Decision {
         if (!resistance(modes_[c], way).is_held()) continue;
         const double force = part(way, forces_[c].force, forces_[c].torque, terms_.contacts[c].normal).norm();
         const double limit = coefficient(questions_[c], way) * forces_[c].normal;
-        const double ratio = force > 0.0 ? force / limit : 0.0;
+        // what has begun to move does so, though rounding may still hold it
+        const bool begins = questions_[c].has_ended(start_of(way)) && force > 0.0;
+        const double ratio = begins ? kBegins : force > 0.0 ? force / limit : 0.0;
         if (ratio > (largest ? largest->ratio : Excess().ratio)) largest = Excess{c, way, ratio};
       }
     return largest;
@@ -128,7 +138,8 @@ class Decision {
     Resistance& it = resistance(modes_[c], excess.way);
     const bool is_slip = excess.way == Way::slip;
     it.follows =
-        excess.way != Way::spin && (!question.may_go_straight || (is_slip ? question.slip_bends : question.roll_bends));
+        excess.way != Way::spin &&
+        (!question.may_go_straight || question.has_ended(is_slip ? ContactEnd::slip_bends : ContactEnd::roll_bends));
     Vector3 motion = -part(excess.way, forces_[c].force, forces_[c].torque, normal);
     constexpr int kRounds = 200;
     constexpr double kSettled = 1e-15;
@@ -168,13 +179,13 @@ std::vector<ContactMode> modes_by_velocity(const BodyTerms<double>& terms,
     const ContactTerms<double>& at = terms.contacts[c];
     const ContactQuestion& question = questions[c];
     ContactMode mode;
-    const auto set = [&](Way way, bool has_stopped, bool bends, double unit) {
+    const auto set = [&](Way way, ContactEnd stops, bool bends, double unit) {
       if (!(coefficient(question, way) > 0.0)) return;
       Resistance& it = resistance(mode, way);
       const ContactMode& before = question.before;
       it.scale = question.speed / unit;
       const Vector3 motion = part(way, at.slip, at.turning, at.normal);
-      if (has_stopped || motion.norm() <= kNoSpeed * it.scale) {
+      if (question.has_ended(stops) || motion.norm() <= kNoSpeed * it.scale) {
         it.state = State::held;
         return;
       }
@@ -183,9 +194,9 @@ std::vector<ContactMode> modes_by_velocity(const BodyTerms<double>& terms,
       it.follows = way != Way::spin && (!question.may_go_straight || bends || (was.is_moving() && was.follows));
     };
     const double radius = std::max(question.radius, 1e-300);
-    set(Way::slip, question.slip_stops, question.slip_bends, 1.0);
-    set(Way::roll, question.roll_stops, question.roll_bends, radius);
-    set(Way::spin, question.spin_stops, false, radius);
+    set(Way::slip, ContactEnd::slip_stops, question.has_ended(ContactEnd::slip_bends), 1.0);
+    set(Way::roll, ContactEnd::roll_stops, question.has_ended(ContactEnd::roll_bends), radius);
+    set(Way::spin, ContactEnd::spin_stops, false, radius);
     modes.push_back(mode);
   }
   return modes;

@@ -140,7 +140,8 @@ std::optional<ContactLaw> make_contact_law(const Program& law, const SustainedBo
     const auto watch = [&](const Resistance& resistance, const NumberVector& motion, ContactEnd stops,
                            ContactEnd bends) {
       const ResistanceEnds ends(resistance, motion, at.normal);
-      end(c, stops, ends.turns_round());
+      // a motion whose direction follows it may turn round without a stop
+      end(c, resistance.follows ? bends : stops, ends.turns_round());
       if (resistance.follows) end(c, stops, ends.dies());
       if (!resistance.follows) end(c, bends, ends.bends());
     };

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -10,17 +11,15 @@ namespace trajet {
 /// What is known of a contact whose mode is to be decided.
 struct ContactQuestion {
   FrictionCoefficients friction{};
-  bool turns = false;            ///< contacts can make the body turn
-  bool may_go_straight = false;  ///< what slides here may do so in a constant direction
-  ContactMode before{};          ///< how it lasted so far
-  bool slip_stops = false;       ///< what moved has stopped, whatever rounding leaves of it
-  bool roll_stops = false;
-  bool spin_stops = false;
-  bool slip_bends = false;  ///< it moves in a direction that is not constant
-  bool roll_bends = false;
-  double speed = 0.0;       ///< m/s: the scale of the speeds at the contact
-  double radius = 0.0;      ///< m, of the body
-  double time_scale = 0.0;  ///< s, of the run
+  bool turns = false;               ///< contacts can make the body turn
+  bool may_go_straight = false;     ///< what slides here may do so in a constant direction
+  ContactMode before{};             ///< how it lasted so far
+  std::vector<ContactEnd> ended{};  ///< of that, just now: whatever rounding leaves of it
+  double speed = 0.0;               ///< m/s: the scale of the speeds at the contact
+  double radius = 0.0;              ///< m, of the body
+  double time_scale = 0.0;          ///< s, of the run
+
+  bool has_ended(ContactEnd end) const { return std::find(ended.begin(), ended.end(), end) != ended.end(); }
 };
 
 /// The modes by the velocities alone: what does not move is held.

@@ -34,20 +34,6 @@ struct SustainedContact {
   ContactMode mode{};
 };
 
-/// What may end the way in which a contact lasts.
-enum class ContactEnd {
-  pull,        ///< it would have to pull
-  past_edge,   ///< the body has come past the patch
-  slip_stops,  ///< what moved does so no more
-  roll_stops,
-  spin_stops,
-  slip_starts,  ///< friction does not hold any more
-  roll_starts,
-  spin_starts,
-  slip_bends,  ///< the direction is not constant
-  roll_bends,
-};
-
 /// A program of t and the group's state that becomes positive when that happens.
 struct ContactEndCondition {
   int contact = 0;

@@ -33,6 +33,20 @@ struct ContactMode {
   bool operator==(const ContactMode&) const = default;
 };
 
+/// What may end the way in which a contact lasts.
+enum class ContactEnd {
+  pull,        ///< it would have to pull
+  past_edge,   ///< the body has come past the patch
+  slip_stops,  ///< what moved does so no more
+  roll_stops,
+  spin_stops,
+  slip_starts,  ///< friction does not hold any more
+  roll_starts,
+  spin_starts,
+  slip_bends,  ///< the direction is not constant
+  roll_bends,
+};
+
 /// The coefficients of a surface: of Coulomb, and of the torques over the normal force, m.
 struct FrictionCoefficients {
   double slip = 0.0, roll = 0.0, spin = 0.0;
