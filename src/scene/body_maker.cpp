@@ -77,21 +77,23 @@ void require_no_conflict(const BodyDefinition& definition) {
     throw InputError(d.force_point->where(), "body '" + d.name + "' has a `force_point` but no `force`");
 }
 
-/// Whether an impact can make the body turn: it has extent, a constant mass, and an inertia.
-bool is_turned_by_impacts(const BodyDefinition& d, const Solid& solid, const SceneNumbers& numbers) {
-  if (is_round(solid) || d.angular_acceleration || d.angular_acceleration_body) return false;
+/// Whether an impact can make the body turn: it has extent, a constant mass, and an inertia; only friction turns a ball.
+bool is_turned_by_impacts(const BodyDefinition& d, const Solid& solid, const SceneNumbers& numbers, Bounces bounces) {
+  if (bounces == Bounces::nowhere || bounding_radius(solid) == 0.0) return false;
+  if (is_round(solid) && bounces == Bounces::smoothly) return false;
+  if (d.angular_acceleration || d.angular_acceleration_body) return false;
   if (!mass_from_solid(d, numbers) && !(d.mass && numbers.knows(*d.mass))) return false;
   return has_inertia(d) || volume_properties(solid).has_value();
 }
 
 std::optional<World::Rotation> rotation(const BodyDefinition& d, const Solid& solid, const SceneNumbers& numbers,
-                                        const MethodOptions& method, bool may_bounce) {
+                                        const MethodOptions& method, Bounces bounces) {
   const std::optional<Expression>* const laws[] = {&d.angular_acceleration, &d.angular_acceleration_body, &d.torque,
                                                    &d.torque_body, &d.force_point};
   const auto law = ranges::find_if(laws, [](const auto* each) { return each->has_value(); });
   const bool has_law = law != std::end(laws);
   if (!has_law && !d.angular_velocity && !d.angular_velocity_body &&
-      !(may_bounce && is_turned_by_impacts(d, solid, numbers)))
+      !is_turned_by_impacts(d, solid, numbers, bounces))
     return std::nullopt;
 
   World::Rotation result{.layout = {method.orientation}, .is_free = !has_law};
@@ -118,7 +120,7 @@ std::optional<World::Rotation> rotation(const BodyDefinition& d, const Solid& so
 }  // namespace
 
 World::Body make_body(const BodyDefinition& definition, const SceneNumbers& numbers, const MethodOptions& method,
-                      bool may_bounce) {
+                      Bounces bounces) {
   require_no_conflict(definition);
   if (has_inertia(definition)) given_inertia(definition, numbers);  // an error where it is none, even if nothing turns
   World::Body body;
@@ -126,8 +128,8 @@ World::Body make_body(const BodyDefinition& definition, const SceneNumbers& numb
   body.where = definition.where;
   body.solid = make_solid(definition, numbers);
   body.q_WB = numbers.orientation(definition.orientation, "orientation" + of_body(definition));
-  body.rotation = rotation(definition, body.solid, numbers, method, may_bounce);
-  if (body.rotation && is_turned_by_impacts(definition, body.solid, numbers))
+  body.rotation = rotation(definition, body.solid, numbers, method, bounces);
+  if (body.rotation && is_turned_by_impacts(definition, body.solid, numbers, bounces))
     body.inertia = inertia(definition, body.solid, numbers);
   set_restitution(definition.restitution, "body '" + definition.name + "'", numbers, body.surface);
   set_friction(definition.friction, "body '" + definition.name + "'", numbers, body.surface);

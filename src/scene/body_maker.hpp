@@ -8,11 +8,13 @@
 
 namespace trajet {
 
+/// What a body may bounce off: nothing, things without friction, which turn all bodies but balls, or with it.
+enum class Bounces { nowhere, smoothly, with_friction };
+
 /// The numbers of a body's definition, but for its place in the state: shape, inertia, orientation, points, how it
-/// turns. `may_bounce`: the scene has something to bounce off, which makes bodies turn that do not at the start. Throws
-/// InputError that points at the place.
+/// turns. `bounces`: impacts make bodies turn that do not at the start. Throws InputError that points at the place.
 World::Body make_body(const BodyDefinition& definition, const SceneNumbers& numbers, const MethodOptions& method,
-                      bool may_bounce);
+                      Bounces bounces);
 
 /// The mass of an extended shape with a density, or of a compound's parts, kg; none if nothing says it. Throws
 /// InputError if both the parts and the body say it.

@@ -155,19 +155,29 @@ class WorldBuilder {
     return static_cast<int>(offset);
   }
 
-  /// Whether there is something that a body may bounce off.
-  bool may_bounce(const BodyDefinition& body) const {
+  /// What there is that a body may bounce off.
+  Bounces bounces(const BodyDefinition& body) const {
     const auto kind = body.collides_with.kind;
     const bool meets_bodies = kind == CollidesWith::Kind::all || kind == CollidesWith::Kind::listed;
-    return (meets_bodies && scene_.bodies.size() > 1) ||
-           ranges::any_of(scene_.obstacles, [](const auto& each) { return each.on_hit == OnHit::bounce; }) ||
-           ranges::any_of(scene_.pairs, [](const auto& each) { return each.on_hit == OnHit::bounce; });
+    const auto are_bounced_off = [](const auto& each) { return each.on_hit == OnHit::bounce; };
+    if (!(meets_bodies && scene_.bodies.size() > 1) && !ranges::any_of(scene_.obstacles, are_bounced_off) &&
+        !ranges::any_of(scene_.pairs, are_bounced_off))
+      return Bounces::nowhere;
+    return has_friction_ ? Bounces::with_friction : Bounces::smoothly;
+  }
+
+  static bool has_friction(const Scene& scene) {
+    const auto has = [](const auto& each) {
+      return each.friction && (each.friction->friction || each.friction->tangential_restitution);
+    };
+    return ranges::any_of(scene.bodies, has) || ranges::any_of(scene.obstacles, has) ||
+           ranges::any_of(scene.pairs, has);
   }
 
   void place_in_groups() {
     for (std::size_t i = 0; i < scene_.bodies.size(); ++i) {
       const BodyDefinition& definition = scene_.bodies[i];
-      World::Body body = make_body(definition, numbers_, scene_.method, may_bounce(definition));
+      World::Body body = make_body(definition, numbers_, scene_.method, bounces(definition));
       body.color = definition.color;
       body.group = group_of(static_cast<int>(i));
       body.offset = append(group(body.group).start, start_state(definition, body, numbers_));
@@ -385,6 +395,7 @@ class WorldBuilder {
   Partition partition_;
   std::unordered_map<std::string_view, int> members_;  // of the partition, by the names of bodies and extra states
   std::map<int, int> group_of_root_;
+  bool has_friction_ = has_friction(scene_);
   World world_;
 };
 

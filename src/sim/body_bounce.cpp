@@ -2,7 +2,7 @@
 
 #include "body_state.hpp"
 #include "impact_sides.hpp"
-#include "trajet/collide/respond/solid_impact.hpp"
+#include "trajet/collide/respond/frictional_impact.hpp"
 
 namespace trajet {
 namespace {
@@ -114,11 +114,13 @@ double gap_error(const World& world, const Meeting& meeting, Course& first, Cour
   return &first == &second ? own : own + second.error_bound_along(along_b, t);
 }
 
-void bounce_bodies(const World& world, const Meeting& meeting, double restitution, const Eigen::MatrixXd& errors_first,
-                   const Eigen::MatrixXd& errors_second, Instant& first, Instant& second, Impact& impact) {
+double bounce_bodies(const World& world, const Meeting& meeting, const Surface& surface, double restitution,
+                     const Eigen::MatrixXd& errors_first, const Eigen::MatrixXd& errors_second, Instant& first,
+                     Instant& second, Impact& impact) {
   const World::Body &a = body_at(world, meeting.id.first), &b = body_at(world, meeting.id.second);
   const JointState joint(first, second);
   const BodySlice slice_a = a.slice(), slice_b = joint.second_slice(b.slice());
+  const ImpactFriction friction = friction_of(surface);
   const double t = first.time();
   const double mass_a = mass_of(a, t, first.before()), mass_b = mass_of(b, t, second.before());
   const Eigen::VectorXd before = joint.of(first.before(), second.before());
@@ -132,17 +134,18 @@ void bounce_bodies(const World& world, const Meeting& meeting, double restitutio
     const Vector3 point = place.point(q);
     const ImpactSide side_a = impact_side(a, slice_a, q, Vector3(slice_a.velocity(q)) + drift_a, mass_a, point);
     const ImpactSide side_b = impact_side(b, slice_b, q, Vector3(slice_b.velocity(q)) + drift_b, mass_b, point);
-    const Vector3 impulse = frictionless_impulse(side_a, side_b, place.normal(q), restitution);
+    const FrictionalImpact hit = frictional_impact(side_a, side_b, place.normal(q), restitution, friction);
     ImpactSide after_a = side_a, after_b = side_b;
-    after_a.take(impulse);
-    after_b.take(-impulse);
+    after_a.take(hit.impulse);
+    after_b.take(-hit.impulse);
     result = q;
     put(a, slice_a, side_a, after_a, result);
     put(b, slice_b, side_b, after_b, result);
-    return impulse;
+    return hit;
   };
   Eigen::VectorXd after;
-  impact.impulse = respond(before, after);
+  const FrictionalImpact hit = respond(before, after);
+  impact.impulse = hit.impulse;
   first.q = joint.first(after);
   second.q = joint.second(after);
   impact.velocity_after = slice_a.velocity(after);
@@ -175,13 +178,14 @@ void bounce_bodies(const World& world, const Meeting& meeting, double restitutio
   }
   if (joint.is_one()) {
     first.derivative = derivative;
-    return;
+    return hit.energy_gained;
   }
   const Eigen::Index n = first.q.size(), m = second.q.size();
   first.derivative = derivative.topLeftCorner(n, n);
   second.derivative = derivative.bottomRightCorner(m, m);
   first.further_errors = derivative.topRightCorner(n, m) * errors_second;
   second.further_errors = derivative.bottomLeftCorner(m, n) * errors_first;
+  return hit.energy_gained;
 }
 
 }  // namespace trajet

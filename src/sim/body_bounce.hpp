@@ -19,11 +19,13 @@ GapMotion gap_motion(const World& world, const Meeting& meeting, const Eigen::Ve
 /// How far the gap of a meeting may be off at its contact, m.
 double gap_error(const World& world, const Meeting& meeting, Course& first, Course& second);
 
-/// The frictionless impact of two bodies: changes the states of both instants, which are one where the bodies are of
+/// The impact of two bodies: changes the states of both instants, which are one where the bodies are of
 /// one course, and what becomes of the states' errors; tells `impact` what came of it.
 ///
 /// \param errors_first, errors_second  of the states before, as Course::error_columns gives them
-void bounce_bodies(const World& world, const Meeting& meeting, double restitution, const Eigen::MatrixXd& errors_first,
-                   const Eigen::MatrixXd& errors_second, Instant& first, Instant& second, Impact& impact);
+/// Returns the energy that Newton's law of impact has gained, J.
+double bounce_bodies(const World& world, const Meeting& meeting, const Surface& surface, double restitution,
+                     const Eigen::MatrixXd& errors_first, const Eigen::MatrixXd& errors_second, Instant& first,
+                     Instant& second, Impact& impact);
 
 }  // namespace trajet

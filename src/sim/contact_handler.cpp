@@ -3,6 +3,7 @@
 #include <cmath>
 #include <utility>
 
+#include "ball_bounce.hpp"
 #include "extended_bounce.hpp"
 #include "impact_record.hpp"
 #include "impact_sides.hpp"
@@ -152,11 +153,18 @@ void ContactHandler::bounce(int index, Pair pair, Impact impact) {
   const double restitution = surface_of(pair).restitution.at(speed_before);
   if (!(restitution >= 0.0 && restitution <= 1.0))
     return run_.fail(t, describe_restitution(obstacle_of(pair), surface_of(pair), restitution, speed_before));
+  if (const std::string reason = why_it_cannot_bounce(body, surface_of(pair)); !reason.empty()) {
+    run_.recorder().impact(impact);
+    return run_.fail(t, reason);
+  }
   const double mass = mass_of(body, t, instant.q);
   const std::vector<Impact> group = bounce_plastic(run_.world(), run_.encounters(), pair, impact, mass, instant);
-  if (group.empty()) {
+  const std::optional<FrameMotion> surface = run_.encounters().frame(pair.id.obstacle, t);
+  double gained = 0.0;
+  if (group.empty() && friction_of(surface_of(pair)).acts()) {
+    gained = bounce_ball(run_.world(), pair, surface, mass, moving.rate(t, instant.before()), instant, impact);
+  } else if (group.empty()) {
     velocity += rebound(approach, impact.normal, restitution).impulse_per_mass;
-    const std::optional<FrameMotion> surface = run_.encounters().frame(pair.id.obstacle, t);
     if (run_.world().extended && !surface && approach == Vector3(impact.velocity_before))
       bounce_extended(run_.world(), pair, instant);
     instant.derivative = derivative_of_bounce(run_.world(), pair, surface, instant, moving.rate(t, instant.before()));
@@ -174,6 +182,7 @@ void ContactHandler::bounce(int index, Pair pair, Impact impact) {
   } else if (is_hit) {
     run_.recorder().impact(impact);
     warn_of_hidden_ties(run_.world(), run_.encounters(), pair, impact, moving, run_.recorder());
+    if (gained > 0.0) run_.recorder().warn_of_gain(impact, gained);
   }
 
   if (const std::string failure = run_.lasting_contacts().release_by_speed(instant, pair.id.body); !failure.empty())
@@ -217,7 +226,7 @@ void ContactHandler::bounce_off(int index, Pair pair, Impact impact) {
     run_.recorder().impact(impact);
     run_.fail(t, reason);
   };
-  if (const std::string reason = why_it_cannot_bounce(body); !reason.empty()) return end(reason);
+  if (const std::string reason = why_it_cannot_bounce(body, surface_of(pair)); !reason.empty()) return end(reason);
   Instant instant(moving, t);
   const double speed = std::max(0.0, -before.speed);
   const double restitution = surface_of(pair).restitution.at(speed);
@@ -234,8 +243,10 @@ void ContactHandler::bounce_off(int index, Pair pair, Impact impact) {
   const bool is_low = restitution < 1.0 ? is_below_flight(std::abs(before.speed), pull, tolerance)
                                         : is_lying(std::abs(before.speed), pull, tolerance);
   if (is_again && is_low) return rests();
-  bounce_solid(run_.world(), pair, surface, restitution, mass_of(body, t, instant.q), instant, impact);
+  const double gained =
+      bounce_solid(run_.world(), pair, surface, restitution, mass_of(body, t, instant.q), instant, impact);
   run_.recorder().impact(impact);
+  if (gained > 0.0) run_.recorder().warn_of_gain(impact, gained);
   warn_of_hidden_ties(run_.world(), run_.encounters(), pair, impact, moving, run_.recorder());
   const NormalMotion after = normal_motion(run_.world(), pair, surface, instant.q, instant.rate());
   if (after.acceleration <= 0.0 &&

@@ -18,8 +18,27 @@ double mass_of(const World::Body& body, double t, const Eigen::VectorXd& q) {
   return value;
 }
 
-std::string why_it_cannot_bounce(const World::Body& body) {
-  if (is_round(body.solid) || !body.rotation || body.inertia) return "";
+ImpactFriction friction_of(const Surface& surface) {
+  const auto measure = [&] {
+    switch (surface.impact) {
+      case ImpactLaw::poisson:
+        return RestitutionOf::impulse;
+      case ImpactLaw::newton:
+        return RestitutionOf::speed;
+      case ImpactLaw::stronge:
+        break;
+    }
+    return RestitutionOf::work;
+  };
+  return {surface.friction, surface.tangential_restitution, measure()};
+}
+
+std::string why_it_cannot_bounce(const World::Body& body, const Surface& surface) {
+  if (body.inertia || bounding_radius(body.solid) == 0.0) return "";
+  if (friction_of(surface).acts())
+    return "friction turns body '" + body.name + "', and how much needs its inertia and its mass: give it a `mass` " +
+           "that is constant or a `density`, and no angular acceleration";
+  if (is_round(body.solid) || !body.rotation) return "";
   return "body '" + body.name + "' turns, and what an impact makes of that needs its inertia and its mass: give it a " +
          "`mass` or a `density`, and no angular acceleration";
 }

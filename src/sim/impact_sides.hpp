@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <string>
 
-#include "trajet/collide/respond/solid_impact.hpp"
+#include "trajet/collide/respond/frictional_impact.hpp"
 #include "trajet/scene/body_slice.hpp"
 #include "trajet/scene/world.hpp"
 
@@ -12,8 +12,11 @@ namespace trajet {
 /// kg; 1 where the body has none: impulses are per mass then.
 double mass_of(const World::Body& body, double t, const Eigen::VectorXd& q);
 
-/// Why a body cannot answer to an impact as a rigid body does; empty if it can.
-std::string why_it_cannot_bounce(const World::Body& body);
+/// What a surface has of friction in impacts.
+ImpactFriction friction_of(const Surface& surface);
+
+/// Why a body cannot answer to an impact on a surface as a rigid body does; empty if it can.
+std::string why_it_cannot_bounce(const World::Body& body, const Surface& surface);
 
 /// Why a restitution at a speed of approach, m/s, does not tell what becomes of an impact. `owner`: whose it is,
 /// "obstacle 'ground'".

@@ -35,10 +35,22 @@ Matrix3 curvature(const Shape& shape, const Vector3& point, const Vector3& posit
 
 }  // namespace
 
+Matrix3 normal_derivative(const World& world, const Pair& pair, const std::optional<FrameMotion>& surface,
+                          const Vector3& position) {
+  const Shape& shape = world.obstacles[static_cast<std::size_t>(pair.id.obstacle)].shape;
+  const double radius = bounding_radius(world.bodies[static_cast<std::size_t>(pair.id.body)].solid);
+  const Vector3& n = pair.contact.normal;
+  if (!surface) return curvature(shape, pair.contact.point, position, n, radius);
+  const Matrix3& R = surface->R;
+  return R *
+         curvature(shape, surface->to_start(pair.contact.point), surface->to_start(position), R.transpose() * n,
+                   radius) *
+         R.transpose();
+}
+
 Eigen::MatrixXd derivative_of_bounce(const World& world, const Pair& pair, const std::optional<FrameMotion>& surface,
                                      const Instant& instant, const Eigen::VectorXd& rate) {
   const World::Body& body = world.bodies[static_cast<std::size_t>(pair.id.body)];
-  const World::Obstacle& obstacle = world.obstacles[static_cast<std::size_t>(pair.id.obstacle)];
   const Vector3& n = pair.contact.normal;
   const Vector3 position = instant.before().segment<3>(body.offset);
   const Vector3 surface_velocity = surface ? surface->velocity_at(position) : Vector3(0, 0, 0);
@@ -51,22 +63,16 @@ Eigen::MatrixXd derivative_of_bounce(const World& world, const Pair& pair, const
   const RestitutionLaw& restitution = world.surface(pair.id.body, pair.id.obstacle).restitution;
   const double factor = 1.0 + restitution.at(-speed);
   const double speed_factor = restitution.change_rate(-speed);
-  const double radius = bounding_radius(body.solid);
-  Matrix3 N, S = Matrix3::Zero();   // how normal and surface velocity change from place to place
+  // how normal and surface velocity change from place to place
+  const Matrix3 N = normal_derivative(world, pair, surface, position);
+  Matrix3 S = Matrix3::Zero();
   Vector3 moved = Vector3::Zero();  // how v+ changes where the obstacle alone moves on
   if (surface) {
-    const Matrix3& R = surface->R;
-    N = R *
-        curvature(obstacle.shape, surface->to_start(pair.contact.point), surface->to_start(position), R.transpose() * n,
-                  radius) *
-        R.transpose();
     S = cross_matrix(surface->w);
     const Vector3 turned = surface->w.cross(n) - N * surface_velocity;
     const Vector3 faster =
         surface->acceleration + surface->w_rate.cross(position - surface->p) - surface->w.cross(surface->v);
     moved = -(speed_factor * (approach.dot(turned) - n.dot(faster)) * n + factor * speed * turned);
-  } else {
-    N = curvature(obstacle.shape, pair.contact.point, position, n, radius);
   }
   derivative.block<3, 3>(body.offset + 3, body.offset) =
       -(speed_factor * n * (approach.transpose() * N - n.transpose() * S) + factor * speed * N);

@@ -15,7 +15,11 @@ namespace trajet {
 Eigen::MatrixXd derivative_of_bounce(const World& world, const Pair& pair, const std::optional<FrameMotion>& surface,
                                      const Instant& instant, const Eigen::VectorXd& rate);
 
-/// The same of an event's `set`, which happens where `when` vanishes.
+/// How the normal of the contact of a point or ball changes with the place of its centre, which is at `position`, 1/m.
+Matrix3 normal_derivative(const World& world, const Pair& pair, const std::optional<FrameMotion>& surface,
+                          const Vector3& position);
+
+/// The derivative of the state behind an event's `set`, which happens where `when` vanishes, by the state before it.
 Eigen::MatrixXd derivative_of_set(const World::Event& event, const Instant& instant, const Eigen::VectorXd& rate);
 
 }  // namespace trajet

@@ -139,7 +139,7 @@ void MeetingHandler::bounce(const Meeting& meeting, const Surface& surface, Impa
     if (!one.mass)
       return end("bodies " + names(meeting) + " meet, and what becomes of that needs their masses: give '" + one.name +
                  "' a `mass` or a `density`");
-    if (const std::string reason = why_it_cannot_bounce(one); !reason.empty()) return end(reason);
+    if (const std::string reason = why_it_cannot_bounce(one, surface); !reason.empty()) return end(reason);
   }
   const int first_index = run_.course_of(meeting.id.first), second_index = run_.course_of(meeting.id.second);
   Course &first = run_.course(first_index), &second = run_.course(second_index);
@@ -153,9 +153,10 @@ void MeetingHandler::bounce(const Meeting& meeting, const Surface& surface, Impa
   sample(meeting, SamplePhase::before);
   Instant instant_first(first, t), other(second, t);
   Instant& instant_second = first_index == second_index ? instant_first : other;
-  bounce_bodies(world, meeting, restitution, first.error_columns(t), second.error_columns(t), instant_first,
-                instant_second, impact);
+  const double gained = bounce_bodies(world, meeting, surface, restitution, first.error_columns(t),
+                                      second.error_columns(t), instant_first, instant_second, impact);
   run_.recorder().impact(impact);
+  if (gained > 0.0) run_.recorder().warn_of_gain(impact, gained);
   for (const auto& [instant, moved] :
        {std::pair(&instant_first, meeting.id.first), {&instant_second, meeting.id.second}})
     if (const std::string failure = run_.lasting_contacts().release_by_speed(*instant, moved); !failure.empty())

@@ -162,6 +162,14 @@ void Recorder::warn_of_tie(const Impact& impact, const std::string& body, const 
        "' are closer in time than their error bounds: which is first is decided by rounding");
 }
 
+void Recorder::warn_of_gain(const Impact& impact, double energy) {
+  constexpr int kMost = 5;
+  if (++gain_count_ > kMost) return warn("further impacts by Newton's law gain energy");
+  warn("the impact of '" + impact.body + "' with '" + impact.with +
+       "' at t = " + shortest_text(world_.epoch + impact.elapsed) + " s gains " + shortest_text(energy) +
+       " J: with friction Newton's law of impact can; impact = \"stronge\" and \"poisson\" never do");
+}
+
 void Recorder::warn(const std::string& text) {
   if (ranges::find(result_.warnings, text) == result_.warnings.end()) result_.warnings.push_back(text);
 }

@@ -52,6 +52,8 @@ class Recorder {
   void unresolved(double time, const std::string& body, const std::string& with, const std::string& why);
   /// Impacts of two pairs may each have been first.
   void warn_of_tie(const Impact& impact, const std::string& body, const std::string& with);
+  /// Newton's law of impact has given energy to the bodies, J.
+  void warn_of_gain(const Impact& impact, double energy);
   void warn(const std::string& text);
 
   /// How far the run has come, and what has become of it.
@@ -80,6 +82,7 @@ class Recorder {
   double direction_;
   RunResult result_;
   int tie_count_ = 0;
+  int gain_count_ = 0;
   long next_sample_ = 0;
   std::optional<double> last_sample_;  // s, of all bodies
   std::optional<Impact> last_impact_;

@@ -5,7 +5,7 @@
 
 #include "body_state.hpp"
 #include "impact_sides.hpp"
-#include "trajet/collide/respond/solid_impact.hpp"
+#include "trajet/collide/respond/frictional_impact.hpp"
 
 namespace trajet {
 namespace {
@@ -40,11 +40,12 @@ ImpactSide side_of(const std::optional<FrameMotion>& surface, const Vector3& poi
 
 }  // namespace
 
-void bounce_solid(const World& world, const Pair& pair, const std::optional<FrameMotion>& surface, double restitution,
-                  double mass, Instant& instant, Impact& impact) {
+double bounce_solid(const World& world, const Pair& pair, const std::optional<FrameMotion>& surface, double restitution,
+                    double mass, Instant& instant, Impact& impact) {
   const World::Body& body = body_of(world, pair);
   const BodySlice slice = body.slice();
   const Hold hold = hold_of(world, pair, instant.before());
+  const ImpactFriction friction = friction_of(world.surface(pair.id.body, pair.id.obstacle));
   // what becomes of a state near this one that is in the same contact, at a fixed time
   const auto respond = [&](const Eigen::VectorXd& q, const Vector3& velocity, Eigen::VectorXd& result) {
     const Matrix3 R = rotation_of(body, body.slice(), q);
@@ -52,15 +53,17 @@ void bounce_solid(const World& world, const Pair& pair, const std::optional<Fram
         hold.turns_with_body ? pair.contact.point : Vector3(Vector3(slice.position(q)) + R * hold.p_B);
     const ImpactSide before = impact_side(body, body.slice(), q, velocity, mass, point);
     ImpactSide after = before;
-    const Vector3 impulse = frictionless_impulse(before, side_of(surface, point), hold.normal_at(R), restitution);
-    after.take(impulse);
+    const FrictionalImpact hit =
+        frictional_impact(before, side_of(surface, point), hold.normal_at(R), restitution, friction);
+    after.take(hit.impulse);
     result = q;
     put(body, body.slice(), before, after, result);
-    return impulse;
+    return hit;
   };
   const Eigen::VectorXd rate = instant.rate();
   const Vector3 drift = Vector3(slice.position(rate)) - Vector3(slice.velocity(instant.before()));  // dr/dt - v
-  impact.impulse = respond(instant.before(), slice.position(rate), instant.q);
+  const FrictionalImpact hit = respond(instant.before(), slice.position(rate), instant.q);
+  impact.impulse = hit.impulse;
   impact.velocity_after = slice.velocity(instant.q);
   impact.angular_velocity_after = angular_velocity(body, instant.q);
 
@@ -84,6 +87,7 @@ void bounce_solid(const World& world, const Pair& pair, const std::optional<Fram
     derivative += (derivative * rate - instant.rate()) * time;
   }
   instant.derivative = derivative;
+  return hit.energy_gained;
 }
 
 NormalMotion normal_motion(const World& world, const Pair& pair, const std::optional<FrameMotion>& surface,

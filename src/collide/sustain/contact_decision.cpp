@@ -141,24 +141,30 @@ class Decision {
         excess.way != Way::spin &&
         (!question.may_go_straight || question.has_ended(is_slip ? ContactEnd::slip_bends : ContactEnd::roll_bends));
     Vector3 motion = -part(excess.way, forces_[c].force, forces_[c].torque, normal);
+    const double per_force = terms_.inverse_mass * forces_[c].force.norm();
     constexpr int kRounds = 200;
     constexpr double kSettled = 1e-15;
+    constexpr double kNoAcceleration = 1e-9;  // of what the forces give
     const bool follows = it.follows;
     it.follows = false;
     for (int i = 0; i < kRounds; ++i) {
       const Vector3 direction = motion.normalized();
       set_moving(it, excess.way, motion, normal);
       solve();
-      motion = acceleration(c, excess.way);
-      if (!(motion.dot(direction) > 0.0)) return false;
+      const Vector3 faster = acceleration(c, excess.way);
+      // at the limit itself it hardly begins to move
+      const double unit = is_slip ? 1.0 : std::max(question.radius, 1e-300);
+      if (unit * faster.norm() <= kNoAcceleration * per_force) break;
+      if (!(faster.dot(direction) > 0.0)) return false;
+      motion = faster;
       if ((motion.normalized() - direction).norm() <= kSettled) break;
     }
     it.follows = follows;
     // of the run's time, so that it is over before anybody sees it
     constexpr double kStart = 1e-9, kScale = 1e-6;
     const double unit = is_slip ? 1.0 : std::max(question.radius, 1e-300);
-    it.start_speed = it.follows ? kStart * motion.norm() * question.time_scale : 0.0;
-    it.scale = std::max(question.speed / unit, kScale * motion.norm() * question.time_scale);
+    it.start_speed = it.follows ? kStart * kScale * per_force / unit * question.time_scale : 0.0;
+    it.scale = std::max(question.speed / unit, kScale * per_force / unit * question.time_scale);
     return true;
   }
 
