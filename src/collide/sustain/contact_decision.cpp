@@ -160,10 +160,9 @@ class Decision {
       if ((motion.normalized() - direction).norm() <= kSettled) break;
     }
     it.follows = follows;
-    // of the run's time, so that it is over before anybody sees it
-    constexpr double kStart = 1e-9, kScale = 1e-6;
+    constexpr double kScale = 1e-6;  // of the run's time
     const double unit = is_slip ? 1.0 : std::max(question.radius, 1e-300);
-    it.start_speed = it.follows ? kStart * kScale * per_force / unit * question.time_scale : 0.0;
+    it.begins = it.follows;
     it.scale = std::max(question.speed / unit, kScale * per_force / unit * question.time_scale);
     return true;
   }
@@ -198,6 +197,8 @@ std::vector<ContactMode> modes_by_velocity(const BodyTerms<double>& terms,
       set_moving(it, way, motion, at.normal);
       const Resistance& was = way == Way::slip ? before.slip : before.roll;
       it.follows = way != Way::spin && (!question.may_go_straight || bends || (was.is_moving() && was.follows));
+      const Vector3 faster = way == Way::slip ? at.slip_rate : Vector3(at.normal.cross(at.slip_rate));
+      it.begins = it.follows && motion.norm() < kBegun * it.scale && faster.dot(motion) > 0.0 && !(was.begins && bends);
     };
     const double radius = std::max(question.radius, 1e-300);
     set(Way::slip, ContactEnd::slip_stops, question.has_ended(ContactEnd::slip_bends), 1.0);

@@ -35,6 +35,10 @@ class ResistanceEnds {
   ProgramNumber dies() const {
     return ProgramNumber(kStopped * kStopped * resistance_.scale * resistance_.scale) - motion_.dot(motion_);
   }
+  /// The motion is fast enough for a direction of its own.
+  ProgramNumber has_begun() const {
+    return motion_.dot(motion_) - ProgramNumber(kBegun * kBegun * resistance_.scale * resistance_.scale);
+  }
   /// The motion is not along its direction any more.
   ProgramNumber bends() const {
     const NumberVector across = normal_.cross(resistance_.direction.cast<ProgramNumber>());
@@ -140,6 +144,7 @@ std::optional<ContactLaw> make_contact_law(const Program& law, const SustainedBo
     const auto watch = [&](const Resistance& resistance, const NumberVector& motion, ContactEnd stops,
                            ContactEnd bends) {
       const ResistanceEnds ends(resistance, motion, at.normal);
+      if (resistance.begins) return end(c, bends, ends.has_begun());
       // a motion whose direction follows it may turn round without a stop
       end(c, resistance.follows ? bends : stops, ends.turns_round());
       if (resistance.follows) end(c, stops, ends.dies());

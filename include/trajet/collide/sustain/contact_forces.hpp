@@ -71,12 +71,12 @@ Vector3T<T> unit_axis(int i) {
 
 /// The direction of a motion that is resisted.
 template <class T>
-Vector3T<T> direction_of(const Resistance& resistance, const Vector3T<T>& motion, const Vector3T<T>& normal) {
+Vector3T<T> direction_of(const Resistance& resistance, const Vector3T<T>& motion, const Vector3T<T>& free_rate,
+                         const Vector3T<T>& normal) {
   using std::sqrt;
-  const Vector3T<T> begun = resistance.direction.cast<T>();
-  if (!resistance.follows) return begun;
-  const T along_normal = normal.dot(motion);
-  const Vector3T<T> along = motion - normal * along_normal + begun * T(resistance.start_speed);
+  if (!resistance.follows) return resistance.direction.cast<T>();
+  const Vector3T<T>& leading = resistance.begins ? free_rate : motion;
+  const Vector3T<T> along = leading - normal * normal.dot(leading);
   return along * (T(1.0) / sqrt(along.dot(along)));
 }
 
@@ -102,7 +102,7 @@ class ContactSystem {
     switch (x.kind) {
       case ContactUnknown::Kind::normal:
         w.force = at.normal;
-        if (mode.slip.is_moving()) w.force -= direction_of(mode.slip, at.slip, at.normal) * T(mu.slip);
+        if (mode.slip.is_moving()) w.force -= direction_of(mode.slip, at.slip, at.slip_rate, at.normal) * T(mu.slip);
         w.torque = torque_per_normal(at, mode, mu);
         break;
       case ContactUnknown::Kind::force:
@@ -177,7 +177,8 @@ class ContactSystem {
   static Vector3T<T> torque_per_normal(const ContactTerms<T>& at, const ContactMode& mode,
                                        const FrictionCoefficients& mu) {
     Vector3T<T> torque = zero();
-    if (mode.roll.is_moving()) torque -= direction_of(mode.roll, at.turning, at.normal) * T(mu.roll);
+    if (mode.roll.is_moving())
+      torque -= direction_of(mode.roll, at.turning, at.normal.cross(at.slip_rate).eval(), at.normal) * T(mu.roll);
     if (mode.spin.is_moving()) torque -= at.normal * T(mode.spin.sign * mu.spin);
     return torque;
   }

@@ -17,14 +17,18 @@ struct Resistance {
   double sign = 0.0;                    ///< of a turning about the normal, instead of a direction
   /// Whether the direction follows the motion; else it is constant, as of what slides straight on.
   bool follows = false;
-  /// Of a motion that begins at zero in a direction that follows it: so small a speed (m/s or rad/s) counts as none.
-  double start_speed = 0.0;
+  /// Of a motion that begins at zero in a direction that follows it: still so slow that its direction is that of what
+  /// accelerates it. Its own would be as stiff as it is slow.
+  bool begins = false;
   double scale = 0.0;  ///< of the speeds at the contact when it began, in the same unit
 
   bool is_moving() const { return state == State::moving; }
   bool is_held() const { return state == State::held; }
   bool operator==(const Resistance&) const = default;
 };
+
+/// A motion that begins has a direction of its own from so large a part of its scale on.
+inline constexpr double kBegun = 1e-5;
 
 /// How a contact lasts: what it does against slip, against turning along the surface and against turning about the
 /// normal.
