@@ -34,7 +34,8 @@ ImpactSide any_side(Random& random) {
   const double mass = std::pow(10.0, uniform(random, -1.0, 1.0));
   const double size = std::pow(10.0, uniform(random, -0.5, 0.5));
   // moments of three perpendicular pairs of masses: any that a body may have
-  const Vector3 squares(uniform(random, 0.01, 1.0), uniform(random, 0.01, 1.0), uniform(random, 0.01, 1.0));
+  const auto square = [&] { return std::pow(10.0, uniform(random, -3.0, 0.0)); };
+  const Vector3 squares(square(), square(), square());
   const Vector3 moments(squares.y() + squares.z(), squares.z() + squares.x(), squares.x() + squares.y());
   const Matrix3 R = any_rotation(random);
   side.inverse_mass = 1.0 / mass;
@@ -136,22 +137,25 @@ TEST(FrictionalImpact, HoldsItsLawsForAMillionContacts) {
     const Contact contact = any_contact(random);
     ImpactFriction friction{any_friction(random), {}, kMeasures[i % 3]};
     if (i % 5 == 0) friction.tangential_restitution = uniform(random, -1.0, 1.0);
+    if (i % 10 == 0) friction.coefficient = 0.0;
     const double e = i % 7 == 0 ? 0.0 : i % 7 == 1 ? 1.0 : uniform(random, 0.0, 1.0);
     const FrictionalImpact impact = frictional_impact(contact.a, contact.b, contact.normal, e, friction);
     const Vector3& J = impact.impulse;
     ASSERT_TRUE(J.allFinite()) << i;
     const double push = contact.normal.dot(J), rub = slip_of(J, contact.normal).norm();
-    ASSERT_GT(push, 0.0) << i;
-    ASSERT_LE(rub, friction.coefficient * push * (1.0 + 1e-12)) << i;
+    ASSERT_GT(push, friction.coefficient > 0.0 ? 0.0 : -1e-14 * rub) << i;
+    if (friction.coefficient > 0.0) {
+      ASSERT_LE(rub, friction.coefficient * push * (1.0 + 1e-12)) << i;
+    }
     const After sides = after(contact, J);
     const double before = kinetic_energy(contact.a) + kinetic_energy(contact.b);
     const double gain = kinetic_energy(sides.a) + kinetic_energy(sides.b) - before;
     // the energies of moments up to 1e4 times each other lose some digits
     if (friction.measure != RestitutionOf::speed) {
       ASSERT_LE(gain, 1e-12 * before) << i;
-      ASSERT_EQ(impact.energy_gained, 0.0) << i;
+      ASSERT_EQ(impact.energy_gained, 0.0);
     }
-    ASSERT_NEAR(impact.energy_gained, std::max(0.0, gain), 1e-12 * before) << i;
+    ASSERT_NEAR(impact.energy_gained, std::max(0.0, gain), 1e-11 * before) << i;
     const Vector3 u = sides.a.velocity_at_point() - sides.b.velocity_at_point();
     ASSERT_GE(contact.normal.dot(u), -1e-12 * contact.velocity().norm()) << i;
     if (impact.grips && !friction.tangential_restitution) {
