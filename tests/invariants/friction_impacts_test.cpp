@@ -124,8 +124,8 @@ TEST(FrictionImpacts, CutShotsThrowAsFrictionLetsThem) {
       const Impact& hit = result.impacts[0];
       const Vector3 line(std::cos(angle), std::sin(angle), 0), across(-std::sin(angle), std::cos(angle), 0);
       const Vector3 thrown = hit.partner->velocity_after;
-      EXPECT_NEAR(-thrown.dot(across) / thrown.dot(line),
-                  -std::min(mu, 2.0 * std::tan(angle) / (7.0 * (1.0 + e))) * -1.0, 1e-11);
+      EXPECT_NEAR(-thrown.dot(across) / thrown.dot(line), std::min(mu, 2.0 * std::tan(angle) / (7.0 * (1.0 + e))),
+                  1e-11);
       EXPECT_LT((hit.velocity_after + thrown - Vector3(1, 0, 0)).norm(), kRounding);
       // both get the same spin: the same impulse across, on opposite sides
       EXPECT_LT((hit.angular_velocity_after - hit.partner->angular_velocity_after).norm(), kRounding);
@@ -148,7 +148,7 @@ TEST(FrictionImpacts, GearingSpinDoesNotThrow) {
 }
 
 TEST(FrictionImpacts, TennisBallsBounceAsMeasured) {
-  // [Cross 2002]: what the normal and the tangential speeds show as restitutions tells the spin, as far as a ball
+  // [Cross2002]: what the normal and the tangential speeds show as restitutions tells the spin, as far as a ball
   // that keeps its shape can
   struct Bounce {
     double v_x, v_y, v_x_after, v_y_after, spin, e, mu;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <random>
 
 #include "trajet/collide/respond/frictional_impact.hpp"
@@ -28,13 +29,15 @@ Matrix3 any_rotation(Random& random) {
   return q.normalized().toRotationMatrix();
 }
 
-/// A solid with any possible inertia and any arm: masses and sizes over some orders of magnitude.
-ImpactSide any_side(Random& random) {
+/// A solid with any possible inertia and any arm: masses and sizes over some orders of magnitude. `flattest`: the
+/// logarithm of the least moment of a pair of masses.
+ImpactSide any_side(Random& random, double flattest) {
   ImpactSide side;
   const double mass = std::pow(10.0, uniform(random, -1.0, 1.0));
   const double size = std::pow(10.0, uniform(random, -0.5, 0.5));
   // moments of three perpendicular pairs of masses: any that a body may have
-  const Vector3 squares(uniform(random, 0.01, 1.0), uniform(random, 0.01, 1.0), uniform(random, 0.01, 1.0));
+  const auto square = [&] { return std::pow(10.0, uniform(random, flattest, 0.0)); };
+  const Vector3 squares(square(), square(), square());
   const Vector3 moments(squares.y() + squares.z(), squares.z() + squares.x(), squares.x() + squares.y());
   const Matrix3 R = any_rotation(random);
   side.inverse_mass = 1.0 / mass;
@@ -53,9 +56,9 @@ struct Contact {
   Vector3 velocity() const { return a.velocity_at_point() - b.velocity_at_point(); }
 };
 
-Contact any_contact(Random& random) {
-  Contact contact{any_side(random), {}, any_vector(random).normalized()};
-  if (random() % 2 == 0) contact.b = any_side(random);
+Contact any_contact(Random& random, double flattest = -3.0) {
+  Contact contact{any_side(random, flattest), {}, any_vector(random).normalized()};
+  if (random() % 2 == 0) contact.b = any_side(random, flattest);
   if (contact.normal.dot(contact.velocity()) > 0.0) contact.normal *= -1.0;
   return contact;
 }
@@ -136,22 +139,25 @@ TEST(FrictionalImpact, HoldsItsLawsForAMillionContacts) {
     const Contact contact = any_contact(random);
     ImpactFriction friction{any_friction(random), {}, kMeasures[i % 3]};
     if (i % 5 == 0) friction.tangential_restitution = uniform(random, -1.0, 1.0);
+    if (i % 10 == 0) friction.coefficient = 0.0;
     const double e = i % 7 == 0 ? 0.0 : i % 7 == 1 ? 1.0 : uniform(random, 0.0, 1.0);
     const FrictionalImpact impact = frictional_impact(contact.a, contact.b, contact.normal, e, friction);
     const Vector3& J = impact.impulse;
     ASSERT_TRUE(J.allFinite()) << i;
     const double push = contact.normal.dot(J), rub = slip_of(J, contact.normal).norm();
-    ASSERT_GT(push, 0.0) << i;
-    ASSERT_LE(rub, friction.coefficient * push * (1.0 + 1e-12)) << i;
+    ASSERT_GT(push, friction.coefficient > 0.0 ? 0.0 : -1e-14 * rub) << i;
+    if (friction.coefficient > 0.0) {
+      ASSERT_LE(rub, friction.coefficient * push * (1.0 + 1e-12)) << i;
+    }
     const After sides = after(contact, J);
     const double before = kinetic_energy(contact.a) + kinetic_energy(contact.b);
     const double gain = kinetic_energy(sides.a) + kinetic_energy(sides.b) - before;
     // the energies of moments up to 1e4 times each other lose some digits
     if (friction.measure != RestitutionOf::speed) {
       ASSERT_LE(gain, 1e-12 * before) << i;
-      ASSERT_EQ(impact.energy_gained, 0.0) << i;
+      ASSERT_EQ(impact.energy_gained, 0.0);
     }
-    ASSERT_NEAR(impact.energy_gained, std::max(0.0, gain), 1e-12 * before) << i;
+    ASSERT_NEAR(impact.energy_gained, std::max(0.0, gain), 1e-11 * before) << i;
     const Vector3 u = sides.a.velocity_at_point() - sides.b.velocity_at_point();
     ASSERT_GE(contact.normal.dot(u), -1e-12 * contact.velocity().norm()) << i;
     if (impact.grips && !friction.tangential_restitution) {
@@ -178,6 +184,85 @@ TEST(FrictionalImpact, IsWhatSmallStepsComeTo) {
     // of the first order: as far from it as the two are apart, with a margin for the step in which a phase ends
     EXPECT_LE((J - fine).norm(), 2.0 * (coarse - fine).norm() + 2e-3 * J.norm()) << i << " mu " << mu << " e " << e;
   }
+}
+
+/// Impulse and work of the normal impulse of a slide, in a parameter tau with dp = |u_t| dtau.
+using Slide = Eigen::Vector4d;
+
+/// Integrates a slide by the classical Runge-Kutta method; none where slip nearly stops.
+class SmoothSlide {
+ public:
+  SmoothSlide(const Contact& contact, double e, double mu, RestitutionOf measure)
+      : contact_(contact), e_(e), mu_(mu), measure_(measure) {}
+
+  std::optional<Vector3> impulse() {
+    double compliance = 0.0;
+    for (const Vector3& axis : {Vector3(1, 0, 0), Vector3(0, 1, 0), Vector3(0, 0, 1)})
+      compliance += contact_.a.compliance(axis) + contact_.b.compliance(axis);
+    const double rate = (1.0 + mu_) * compliance;  // no part of the slip changes faster
+    const double start = slip_of(contact_.velocity(), contact_.normal).norm();
+    Slide slide = Slide::Zero();
+    double target = 0.0;
+    for (const bool compresses : {true, false}) {
+      const auto has_ended = [&](const Slide& at) {
+        const double speed = contact_.normal.dot(velocity(at));
+        if (compresses || measure_ == RestitutionOf::speed) return speed >= target;
+        return (measure_ == RestitutionOf::work ? at[3] : contact_.normal.dot(at.head<3>())) >= target;
+      };
+      double h = 1e-2 / rate;
+      for (int i = 0; i < 50'000; ++i) {
+        const Slide next = step(slide, h);
+        if (!has_ended(next)) {
+          slide = next;
+        } else if ((h *= 0.5) < 1e-13 / rate) {
+          break;
+        }
+        if (slip_of(velocity(slide), contact_.normal).norm() < 0.01 * start || i == 49'999) return std::nullopt;
+      }
+      target = measure_ == RestitutionOf::work      ? (1.0 - e_ * e_) * slide[3]
+               : measure_ == RestitutionOf::impulse ? (1.0 + e_) * contact_.normal.dot(slide.head<3>())
+                                                    : -e_ * contact_.normal.dot(contact_.velocity());
+    }
+    return slide.head<3>();
+  }
+
+ private:
+  Vector3 velocity(const Slide& at) const {
+    const After sides = after(contact_, at.head<3>());
+    return sides.a.velocity_at_point() - sides.b.velocity_at_point();
+  }
+  Slide rate(const Slide& at) const {
+    const Vector3 u = velocity(at), slip = slip_of(u, contact_.normal);
+    Slide rate;
+    rate << slip.norm() * contact_.normal - mu_ * slip, slip.norm() * contact_.normal.dot(u);
+    return rate;
+  }
+  Slide step(const Slide& at, double h) const {
+    const Slide a = rate(at), b = rate(at + 0.5 * h * a), c = rate(at + 0.5 * h * b), d = rate(at + h * c);
+    return at + h / 6.0 * (a + 2.0 * b + 2.0 * c + d);
+  }
+
+  const Contact& contact_;
+  double e_, mu_;
+  RestitutionOf measure_;
+};
+
+TEST(FrictionalImpact, SlidesAreRightToRounding) {
+  Random random(31);
+  int slides = 0;
+  for (int i = 0; i < 200; ++i) {
+    const Contact contact = any_contact(random, -0.5);
+    const double mu = std::pow(10.0, uniform(random, -2.0, 0.0)), e = uniform(random, 0.1, 1.0);
+    const RestitutionOf measure = kMeasures[i % 3];
+    const std::optional<Vector3> expected = SmoothSlide(contact, e, mu, measure).impulse();
+    if (!expected) continue;
+    ++slides;
+    const FrictionalImpact impact = frictional_impact(contact.a, contact.b, contact.normal, e, {mu, {}, measure});
+    EXPECT_FALSE(impact.grips);
+    // of the Runge-Kutta steps: 100 in the time in which slip changes, to the fourth power, and their rounding
+    EXPECT_LE((impact.impulse - *expected).norm(), 1e-10 * expected->norm()) << i;
+  }
+  EXPECT_GT(slides, 30);
 }
 
 }  // namespace

@@ -47,18 +47,18 @@ double largest_share(double a, double b, double f) {
 
 /// What a grip of tangential restitution e_t >= 0 gives back: slip turned round, the normal speed as it is, as far as
 /// friction and energy let it.
-Vector3 recoil(const ImpactInContactFrame& impact, const Vector3& J, double e_t, bool has_limit) {
+Vector3 recoil(const ImpactInContactFrame& impact, const Vector3& J, double e_t) {
   const Vector3 wanted(-e_t * impact.velocity.x(), -e_t * impact.velocity.y(), 0.0);
   const Vector3 more = impact.K.ldlt().solve(wanted);
   const Vector3 after = impact.velocity + impact.K * J;
   double share = largest_share(0.5 * more.dot(wanted), more.dot(after), energy_of(impact, J));
-  if (has_limit) {
-    const double square = impact.friction * impact.friction;
-    const auto excess = [&](const Vector3& a, const Vector3& b) {
-      return a.head<2>().dot(b.head<2>()) - square * a.z() * b.z();
-    };
-    share = std::min(share, largest_share(excess(more, more), 2.0 * excess(more, J), excess(J, J)));
-  }
+  const double square = impact.friction * impact.friction;
+  const auto excess = [&](const Vector3& a, const Vector3& b) {
+    return a.head<2>().dot(b.head<2>()) - square * a.z() * b.z();
+  };
+  share = std::min(share, largest_share(excess(more, more), 2.0 * excess(more, J), excess(J, J)));
+  // the cone of a limit that is none has lost its apex to rounding: nothing pulls
+  if (more.z() < 0.0) share = std::min(share, J.z() / -more.z());
   return share * more;
 }
 
@@ -75,13 +75,16 @@ FrictionalImpact frictional_impact(const ImpactSide& a, const ImpactSide& b, con
   impact.velocity = {axes.col(0).dot(velocity), 0.0, normal.dot(velocity)};
   impact.restitution = restitution;
   impact.measure = friction.measure;
-  const bool has_limit = friction.coefficient > 0.0;
-  impact.friction = has_limit ? friction.coefficient : kWithoutLimit;
+  impact.friction = friction.coefficient > 0.0 ? friction.coefficient : kWithoutLimit;
 
   GrownImpulse grown = grown_impulse(impact);
   Vector3& J = grown.impulse;
   const double e_t = friction.tangential_restitution.value_or(0.0);
-  if (e_t > 0.0) J += recoil(impact, J, e_t, has_limit);
+  if (e_t > 0.0) {
+    J += recoil(impact, J, e_t);
+    const double rub = J.head<2>().norm(), most = impact.friction * J.z();
+    if (friction.coefficient > 0.0 && rub > most) J.head<2>() *= most / rub;  // by rounding
+  }
   if (e_t < 0.0) {
     // a part of friction's impulse: a way between two within the cone, along which the energy is convex
     ImpactInContactFrame gripped = impact;
@@ -92,9 +95,12 @@ FrictionalImpact frictional_impact(const ImpactSide& a, const ImpactSide& b, con
     J = alone + share * (J - alone);
     grown.grips = grown.grips && share == 1.0;
   }
+  FrictionalImpact result{axes * J, grown.grips};
+  constexpr double kRounding = 1e-12;
   const double gained = energy_of(impact, J);
-  const double rounding = 64.0 * kUnitRoundoff * std::abs(J.dot(impact.velocity));
-  return {axes * J, grown.grips, gained > rounding ? gained : 0.0};
+  const bool can_gain = friction.measure == RestitutionOf::speed;
+  if (can_gain && gained > kRounding * J.cwiseAbs().dot(impact.velocity.cwiseAbs())) result.energy_gained = gained;
+  return result;
 }
 
 }  // namespace trajet

@@ -29,7 +29,7 @@ struct FrictionalImpact {
 ///
 /// The impulse J grows along the normal n, by one unit of it along n - mu s as long as the point of contact slips in
 /// the direction s, while the relative velocity of the point follows, du = K dJ, K the inverse inertia of both there
-/// [Stronge 2000, ch. 4]. Where slip has stopped, J goes on in the direction d = n + x, |x| <= mu, of the least d.Kd:
+/// [Stronge2000, ch. 4]. Where slip has stopped, J goes on in the direction d = n + x, |x| <= mu, of the least d.Kd:
 /// that is without slip where friction suffices, else with slip in the only direction that agrees with friction.
 /// Compression ends where the normal speed is zero, restitution as `friction.measure` says. A tangential restitution adds
 /// an impulse that turns slip round without a change of the normal speed, as far as friction and energy let it; a
