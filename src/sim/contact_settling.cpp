@@ -91,6 +91,16 @@ void ContactSettling::stop_held(const BodyTerms<double>& terms, const std::vecto
              instant_.q.data());
 }
 
+void ContactSettling::stand_still() {
+  for (const int index : own()) {
+    const RestingContact& contact = instant_.contacts[static_cast<std::size_t>(index)];
+    const bool is_driven = world_.obstacles[static_cast<std::size_t>(contact.obstacle)].drive != nullptr;
+    const bool is_still = contact.mode.slip.is_held() &&
+                          (contact.mode.roll.is_held() || !body().rotation || bounding_radius(body().solid) == 0.0);
+    if (is_still && !is_driven) instant_.q.segment<3>(body().offset + 3).setZero();
+  }
+}
+
 std::string ContactSettling::settle(const std::vector<EndedMode>& ended, const Release& release) {
   while (true) {
     kinds_.clear();
@@ -118,6 +128,7 @@ std::string ContactSettling::settle(const std::vector<EndedMode>& ended, const R
       kinds_.push_back({{contact.body, contact.obstacle},
                         kind_of(contact, terms->contacts[i], rates_by(*terms, decision.forces)[i], force)});
     }
+    stand_still();
     return "";
   }
 }

@@ -47,6 +47,8 @@ class ContactSettling {
   /// Stops what its contacts hold.
   void stop_held(const BodyTerms<double>& terms, const std::vector<ContactQuestion>& questions,
                  const std::vector<ContactMode>& modes);
+  /// What rounding has left of the velocity of a body that stands still.
+  void stand_still();
   double speed_scale(const ContactTerms<double>& at) const;
   ImpactKind kind_of(const RestingContact& contact, const ContactTerms<double>& at, const ContactRates& by_forces,
                      double force) const;

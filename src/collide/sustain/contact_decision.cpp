@@ -187,15 +187,16 @@ std::vector<ContactMode> modes_by_velocity(const BodyTerms<double>& terms,
     const auto set = [&](Way way, ContactEnd stops, bool bends, double unit) {
       if (!(coefficient(question, way) > 0.0)) return;
       Resistance& it = resistance(mode, way);
-      const ContactMode& before = question.before;
-      it.scale = question.speed / unit;
+      ContactMode before = question.before;
+      // what was held is so to the rounding of the speeds that it had then
+      const Resistance& was = resistance(before, way);
+      it.scale = std::max(question.speed / unit, was.scale);
       const Vector3 motion = part(way, at.slip, at.turning, at.normal);
       if (question.has_ended(stops) || motion.norm() <= kNoSpeed * it.scale) {
         it.state = State::held;
         return;
       }
       set_moving(it, way, motion, at.normal);
-      const Resistance& was = way == Way::slip ? before.slip : before.roll;
       it.follows = way != Way::spin && (!question.may_go_straight || bends || (was.is_moving() && was.follows));
       const Vector3 faster = way == Way::slip ? at.slip_rate : Vector3(at.normal.cross(at.slip_rate));
       it.begins = it.follows && motion.norm() < kBegun * it.scale && faster.dot(motion) > 0.0 && !(was.begins && bends);
