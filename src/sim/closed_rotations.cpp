@@ -7,6 +7,7 @@
 
 #include "trajet/math/polynomial.hpp"
 #include "trajet/math/shift_rows.hpp"
+#include "trajet/portable.hpp"
 
 namespace trajet {
 namespace {
@@ -34,13 +35,16 @@ ClosedRotations::ClosedRotations(const World& world, int group)
   }
 }
 
-void ClosedRotations::begin(double t, const Eigen::VectorXd& q, const Eigen::VectorXd* before) {
+void ClosedRotations::begin(double t, const Eigen::VectorXd& q, const Eigen::VectorXd* before,
+                            const std::vector<const World::Rotation*>& pushed) {
   const std::vector<Rotation> known = std::exchange(rotations_, {});
-  for (std::size_t i = 0; i < places_.size(); ++i) {
-    const World::Rotation* place = places_[i];
+  for (const World::Rotation* place : places_) {
+    if (ranges::find(pushed, place) != pushed.end()) continue;
     const int size = place->layout.size() + 3;
-    if (before != nullptr && q.segment(place->offset, size) == before->segment(place->offset, size)) {
-      rotations_.push_back(known[i]);
+    const auto old = ranges::find(known, place, &Rotation::place);
+    if (old != known.end() && before != nullptr &&
+        q.segment(place->offset, size) == before->segment(place->offset, size)) {
+      rotations_.push_back(*old);
       continue;
     }
     const Quaternion q_WB = place->layout.quaternion(q.data() + place->offset).normalized();

@@ -19,8 +19,9 @@ class ClosedRotations {
 
   bool empty() const { return rotations_.empty(); }
   /// The motion starts at time t in state q, or goes on there from state `before`. What goes on as it came keeps its
-  /// closed form.
-  void begin(double t, const Eigen::VectorXd& q, const Eigen::VectorXd* before = nullptr);
+  /// closed form. `pushed`: the rotations that contacts change, which have none.
+  void begin(double t, const Eigen::VectorXd& q, const Eigen::VectorXd* before,
+             const std::vector<const World::Rotation*>& pushed);
   /// Puts the closed forms' values at time t into a state.
   void write(double t, Eigen::VectorXd& q) const;
   /// The step with the closed forms in it, in pieces.

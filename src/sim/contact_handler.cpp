@@ -61,7 +61,8 @@ void ContactHandler::handle(int index, const Pair& met) {
   for (const int each : moving.group().bodies) run_.encounters().bound_times(each, moving);
   Impact impact = describe(run_.world(), pair, run_.encounters().frame(pair.id.obstacle, time), moving.state(time));
   impact.elapsed = time;
-  if (!is_round(body.solid) && is_hit(pair.contact) && surface_of(pair).on_hit == OnHit::bounce)
+  if (!is_round(body.solid) && surface_of(pair).on_hit == OnHit::bounce &&
+      (is_hit(pair.contact) || is_pressed(moving, pair)))
     return bounce_off(index, pair, impact);
   if (is_hit(pair.contact) && surface_of(pair).on_hit == OnHit::bounce) {
     if (goes_on_sliding(index, pair)) return;
@@ -91,6 +92,15 @@ bool ContactHandler::goes_on_sliding(int index, const Pair& pair) {
   run_.encounters().search(body, moving, moving.next().time);
   run_.enqueue(index);
   return true;
+}
+
+bool ContactHandler::is_pressed(const Course& moving, const Pair& pair) const {
+  const double t = pair.contact.time;
+  const Eigen::VectorXd q = moving.state(t);
+  const NormalMotion motion =
+      normal_motion(run_.world(), pair, run_.encounters().frame(pair.id.obstacle, t), q, moving.rate(t, q));
+  return is_lying(motion.speed, std::max(0.0, -motion.acceleration), pair.contact.memory.tolerance) &&
+         motion.acceleration < 0.0;
 }
 
 std::string ContactHandler::describe_doubt(Course& moving, const Pair& pair) {
@@ -215,10 +225,6 @@ void ContactHandler::bounce_off(int index, Pair pair, Impact impact) {
       return run_.enqueue(index);
     }
   }
-  const auto rests = [&] {
-    run_.fail(t, "body '" + body.name + "' comes to rest on obstacle '" + obstacle.name +
-                     "': contact that lasts is not computed yet for solids that are no points or balls");
-  };
   Bounce& last = last_bounces_[static_cast<std::size_t>(pair.id.body)];
   const Bounce flight = std::exchange(last, Bounce{pair.id.obstacle, t, pair.contact.point});
   run_.recorder().sample(t, pair.id.body, SamplePhase::before);
@@ -242,7 +248,7 @@ void ContactHandler::bounce_off(int index, Pair pair, Impact impact) {
   const double pull = before.speed > 0.0 ? std::abs(pair.contact.gap_curvature) : 2.0 * speed / std::abs(duration);
   const bool is_low = restitution < 1.0 ? is_below_flight(std::abs(before.speed), pull, tolerance)
                                         : is_lying(std::abs(before.speed), pull, tolerance);
-  if (is_again && is_low) return rests();
+  if (is_again && is_low) return stay(index, pair, impact, instant);
   const double gained =
       bounce_solid(run_.world(), pair, surface, restitution, mass_of(body, t, instant.q), instant, impact);
   run_.recorder().impact(impact);
@@ -251,10 +257,35 @@ void ContactHandler::bounce_off(int index, Pair pair, Impact impact) {
   const NormalMotion after = normal_motion(run_.world(), pair, surface, instant.q, instant.rate());
   if (after.acceleration <= 0.0 &&
       is_below_flight(std::max(0.0, after.speed), -after.acceleration, pair.contact.memory.tolerance))
-    return rests();
+    return stay(index, pair, impact, instant);
+  if (const std::string failure = run_.lasting_contacts().release_by_speed(instant, pair.id.body); !failure.empty())
+    return run_.fail(t, describe_lasting(pair.id.body, failure));
   instant.memories.insert(instant.memories.begin(), {pair.id, rebounded(pair.contact.memory)});
   run_.go_on(index, instant);
   run_.recorder().sample(t, pair.id.body, SamplePhase::after);
+  run_.advance(index);
+}
+
+void ContactHandler::stay(int index, const Pair& pair, const Impact& impact, Instant& instant) {
+  const double t = instant.time();
+  const World::Body& body = body_of(pair);
+  const auto fail = [&](const std::string& why) {
+    run_.fail(t, "body '" + body.name + "' comes to rest on obstacle '" + obstacle_of(pair).name + "', " + why);
+  };
+  const auto contact = run_.lasting_contacts().contact_at(instant, pair.id, impact.point, impact.normal);
+  if (!contact)
+    return fail(
+        "where trajet cannot follow it: contact that lasts is of corners, edges and faces of convex "
+        "solids on flat faces");
+  if (!body.inertia) return fail("and what becomes of that needs its inertia: give it a `mass` or a `density`");
+  if (const std::string failure = run_.lasting_contacts().begin(instant, *contact, impact, t); !failure.empty())
+    return fail(failure);
+  ContactMemory memory = rebounded(pair.contact.memory);
+  memory.contact_time = t;
+  instant.memories.insert(instant.memories.begin(), {pair.id, memory});
+  run_.go_on(index, instant);
+  run_.recorder().sample(t, pair.id.body, SamplePhase::after);
+  run_.lasting_contacts().record_until(t);
   run_.advance(index);
 }
 
@@ -326,7 +357,7 @@ void ContactHandler::handle_end(int index) {
     return run_.fail(time, describe_lasting(body, "how it goes on changes without an end at one instant"));
   run_.recorder().sample(time, body, SamplePhase::before);
   run_.recorder().sample(time, body, SamplePhase::after);
-  const std::string failure = run_.lasting_contacts().handle_end(instant, crossing.index, crossing.end,
+  const std::string failure = run_.lasting_contacts().handle_end(instant, crossing.index, crossing.end, crossing.detail,
                                                                  crossing.error_bound + std::abs(time - crossing.time));
   if (!failure.empty()) return run_.fail(time, describe_lasting(body, failure));
   run_.go_on(index, instant);

@@ -24,6 +24,8 @@ class ContactHandler {
   double end_of_pull(const Course& moving, const Crossing& crossing) const;
   /// Whether a face on which the body slides goes on on the obstacle that it meets; then the motion does.
   bool goes_on_sliding(int course, const Pair& met);
+  /// Whether a solid that touches is pressed on what it touches, and does not come or go.
+  bool is_pressed(const Course& moving, const Pair& pair) const;
   /// Why it is not certain that a contact is one, as far as the motion is known; else empty.
   std::string describe_doubt(Course& moving, const Pair& pair);
   /// Whether a contact is the last one still, from which the body moves away by its law; then the motion goes on.
@@ -31,6 +33,8 @@ class ContactHandler {
   void bounce(int course, Pair pair, Impact impact);
   /// The same of a body that is no point or ball.
   void bounce_off(int course, Pair pair, Impact impact);
+  /// A solid that does not fly any more stays in contact.
+  void stay(int course, const Pair& pair, const Impact& impact, Instant& instant);
   /// Begins a rest where the body, after its impact, will not fly any more; false if it cannot be followed.
   bool rest(Instant& instant, const Pair& pair, const Impact& impact, double restitution, bool is_hidden);
 

@@ -1,9 +1,14 @@
 #include "contact_settling.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "body_state.hpp"
+#include "solid_contact.hpp"
 #include "sustained.hpp"
+#include "trajet/collide/sustain/rest.hpp"
+#include "trajet/portable.hpp"
 
 namespace trajet {
 namespace {
@@ -11,7 +16,17 @@ namespace {
 /// A speed so small of those at a contact is none: far above rounding.
 constexpr double kNone = 1e-12;
 
+/// Of the places of corners.
+constexpr double kRoundings = 16.0;
+
 }  // namespace
+
+void narrow(RestingContact& contact, const std::vector<int>& remaining) {
+  std::vector<int> corners;
+  for (const int each : remaining) corners.push_back(contact.corners[static_cast<std::size_t>(each)]);
+  ranges::sort(corners);
+  contact.corners = std::move(corners);
+}
 
 std::vector<int> ContactSettling::own() const {
   std::vector<int> own;
@@ -29,8 +44,11 @@ std::optional<BodyTerms<double>> ContactSettling::look() {
   for (std::size_t i = 0; i < own.size(); ++i) {
     RestingContact& contact = instant_.contacts[static_cast<std::size_t>(own[i])];
     if (contact.is_plain) continue;
-    contact.normal = terms->contacts[i].normal;
-    contact.point = position + terms->contacts[i].arm;
+    const std::vector<int>& points = terms->contacts[i].points;
+    Vector3 arm = Vector3::Zero();
+    for (const int point : points) arm += terms->points[static_cast<std::size_t>(point)].arm;
+    contact.normal = terms->points[static_cast<std::size_t>(points[0])].normal;
+    contact.point = position + arm / static_cast<double>(points.size());
   }
   return terms;
 }
@@ -51,7 +69,7 @@ std::vector<ContactQuestion> ContactSettling::questions(const BodyTerms<double>&
                              .turns = body().rotation && body().inertia && bounding_radius(body().solid) > 0.0,
                              .may_go_straight = contact.patch.is_flat() && !sustained.turns,
                              .before = contact.mode,
-                             .speed = speed_scale(terms.contacts[i]),
+                             .speed = speed_scale(terms.points[static_cast<std::size_t>(terms.contacts[i].points[0])]),
                              .radius = bounding_radius(body().solid),
                              .time_scale = std::abs(world_.duration)};
     for (const EndedMode& each : ended)
@@ -61,12 +79,22 @@ std::vector<ContactQuestion> ContactSettling::questions(const BodyTerms<double>&
   return questions;
 }
 
-void ContactSettling::stop_held(const BodyTerms<double>& terms, const std::vector<ContactQuestion>& questions,
-                                const std::vector<ContactMode>& modes) {
+void ContactSettling::apply(const BodyTerms<double>& terms, const std::vector<ContactQuestion>& questions,
+                            const std::vector<ContactMode>& modes, const std::vector<ContactUnknown>& unknowns) {
   std::vector<FrictionCoefficients> friction;
   for (const ContactQuestion& question : questions) friction.push_back(question.friction);
-  const std::vector<ContactUnknown> unknowns = independent_unknowns(terms, modes, friction);
   const SustainedBody sustained = sustained_body(world_, body_);
+  const auto add_impulses = [&](const BodyTerms<double>& of, double* changed) {
+    auto impulses = contact_forces<double>(of, modes, friction, unknowns, true);
+    for (std::size_t c = 0; restitution_ > 0.0 && c < impulses.size(); ++c)
+      for (std::size_t i = 0; i < impulses[c].shares.size(); ++i) {
+        const ContactTerms<double>& at = of.points[static_cast<std::size_t>(of.contacts[c].points[i])];
+        const Vector3 more = restitution_ * impulses[c].shares[i] * at.normal;
+        impulses[c].force += more;
+        impulses[c].moment += at.arm.cross(more);
+      }
+    add_forces(sustained, of, impulses, instant_.q.data(), changed);
+  };
   // the same of errors of the state, each a column: by what they are of the velocities
   const Matrix3 R = body().rotation ? body().rotation->layout.rotation(instant_.q.data() + body().rotation->offset)
                                     : Matrix3(Matrix3::Identity());
@@ -78,59 +106,209 @@ void ContactSettling::stop_held(const BodyTerms<double>& terms, const std::vecto
       turning = change.segment<3>(body().slice().angular_velocity_index());
       if (body().rotation->layout.frame == Frame::body) turning = R * turning;
     }
-    for (ContactTerms<double>& at : of_change.contacts) {
+    for (ContactTerms<double>& at : of_change.points) {
       at.slip = Vector3(change.segment<3>(body().offset + 3)) + turning.cross(at.arm);
       at.turning = turning;
     }
     Eigen::VectorXd changed = change;
-    add_forces(sustained, of_change, contact_forces<double>(of_change, modes, friction, unknowns, true),
-               instant_.q.data(), changed.data());
+    add_impulses(of_change, changed.data());
     change = changed;
   }
-  add_forces(sustained, terms, contact_forces<double>(terms, modes, friction, unknowns, true), instant_.q.data(),
-             instant_.q.data());
+  add_impulses(terms, instant_.q.data());
+}
+
+bool ContactSettling::stop(const BodyTerms<double>& terms, const std::vector<ContactQuestion>& questions,
+                           const std::vector<ContactMode>& modes, std::string& failure) {
+  // what comes to the surface hits it; what is too slow for a flight that anybody could see is stopped
+  bool hits = false;
+  for (std::size_t c = 0; c < modes.size(); ++c) {
+    const bool has_corners = contact(own()[c]).core != nullptr;
+    const double scale = std::max({questions[c].speed, modes[c].slip.scale, questions[c].before.slip.scale});
+    const std::vector<double> heights = heights_of(own()[c]);
+    for (std::size_t i = 0; has_corners && i < heights.size(); ++i) {
+      const ContactTerms<double>& at = terms.points[static_cast<std::size_t>(terms.contacts[c].points[i])];
+      hits = hits || (std::abs(at.normal.dot(at.slip)) > kNone * scale && !is_slow(at, heights[i]));
+    }
+  }
+  if (!hits) {
+    std::vector<FrictionCoefficients> friction;
+    for (const ContactQuestion& question : questions) friction.push_back(question.friction);
+    apply(terms, questions, modes, independent_unknowns(terms, modes, friction));
+    return true;
+  }
+  const ContactDecision decision = decide_contacts(terms, questions, modes, true);
+  if (decision.pulling >= 0) {
+    const auto pulling = static_cast<std::size_t>(decision.pulling);
+    if (terms.contacts[pulling].is_one()) return true;  // it departs
+    narrow(contact(own()[pulling]), terms.contacts[pulling].remaining[static_cast<std::size_t>(decision.pulled_side)]);
+    return false;
+  }
+  failure = decision.failure;
+  if (failure.empty()) apply(terms, questions, decision.modes, decision.unknowns);
+  return true;
+}
+
+std::vector<double> ContactSettling::heights_of(int index) {
+  const RestingContact& one = contact(index);
+  if (!one.core) return {};
+  const std::vector<double> all =
+      heights_of_corners(world_, one, encounters_.frame(one.obstacle, instant_.time()), instant_.q);
+  std::vector<double> heights;
+  for (const int corner : one.corners) heights.push_back(all[static_cast<std::size_t>(corner)]);
+  return heights;
+}
+
+bool ContactSettling::has_sunk() {
+  constexpr double kSunk = 1e-6;  // of the size
+  return ranges::any_of(own(), [&](int index) {
+    const RestingContact& one = contact(index);
+    if (!one.core) return false;
+    const auto heights = heights_of_corners(world_, one, encounters_.frame(one.obstacle, instant_.time()), instant_.q);
+    return ranges::any_of(heights, [&](double height) { return height < -kSunk * one.core->reach; });
+  });
+}
+
+bool ContactSettling::is_slow(const ContactTerms<double>& at, double height) const {
+  const double reach = instant_.q.segment<3>(body().offset).norm() + bounding_radius(body().solid);
+  const double pull = -(at.normal.dot(at.slip_rate) + at.normal_rate.dot(at.slip));
+  const double speed = at.normal.dot(at.slip);
+  // a flight must clear what the corner has sunk by rounding
+  constexpr double kClear = 4.0;
+  return is_below_flight(speed, std::max(0.0, pull), kRoundings * kUnitRoundoff * reach) ||
+         (height < 0.0 && speed * speed <= -2.0 * kClear * height * std::max(0.0, pull));
+}
+
+bool ContactSettling::are_closing(const BodyTerms<double>& terms) {
+  const std::vector<int> own = this->own();
+  for (std::size_t c = 0; c < own.size(); ++c) {
+    if (!contact(own[c]).core) continue;
+    const std::vector<double> heights = heights_of(own[c]);
+    for (std::size_t i = 0; i < heights.size(); ++i) {
+      const ContactTerms<double>& at = terms.points[static_cast<std::size_t>(terms.contacts[c].points[i])];
+      if (at.normal.dot(at.slip) < -kNone * speed_scale(at) && !is_slow(at, heights[i])) return true;
+    }
+  }
+  return false;
+}
+
+bool ContactSettling::keep_touching(const BodyTerms<double>& terms, int& gone) {
+  const std::vector<int> own = this->own();
+  for (std::size_t c = 0; c < own.size(); ++c) {
+    if (!contact(own[c]).core) continue;
+    std::vector<int> touching;
+    const std::vector<double> heights = heights_of(own[c]);
+    const std::vector<int>& points = terms.contacts[c].points;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const ContactTerms<double>& at = terms.points[static_cast<std::size_t>(points[i])];
+      const double speed = at.normal.dot(at.slip);
+      const bool departs = speed > kNone * speed_scale(at) && !is_slow(at, heights[i]);
+      if (!departs) touching.push_back(static_cast<int>(i));
+    }
+    if (touching.size() == points.size()) continue;
+    if (touching.empty()) {
+      gone = own[c];
+      return false;
+    }
+    narrow(contact(own[c]), touching);
+  }
+  return true;
+}
+
+bool ContactSettling::take_sinking(const BodyTerms<double>& terms, const std::vector<ContactForce<double>>& forces) {
+  Vector3 acceleration = Vector3::Zero(), moment = Vector3::Zero();
+  for (const ContactForce<double>& each : forces) {
+    acceleration += terms.inverse_mass * each.force;
+    moment += each.moment;
+  }
+  const Vector3 turning = terms.inverse_inertia * moment;
+  bool has_any = false;
+  for (const int index : own()) {
+    RestingContact& one = contact(index);
+    if (!one.core) continue;
+    RestingContact all = one;
+    all.corners = touching_corners(world_, one, encounters_.frame(one.obstacle, instant_.time()), instant_.q);
+    if (all.corners.size() <= one.corners.size()) continue;
+    const auto of_all = contact_terms(world_, instant_.course().group().law, {all}, body_, instant_.time(), instant_.q);
+    const std::vector<double> heights =
+        heights_of_corners(world_, all, encounters_.frame(one.obstacle, instant_.time()), instant_.q);
+    for (std::size_t i = 0; of_all && i < all.corners.size(); ++i) {
+      if (ranges::find(one.corners, all.corners[i]) != one.corners.end()) continue;
+      const ContactTerms<double>& at = of_all->points[i];
+      const double speed = at.normal.dot(at.slip), none = kNone * speed_scale(at);
+      const double faster =
+          at.normal.dot(at.slip_rate + acceleration + turning.cross(at.arm)) + at.normal_rate.dot(at.slip);
+      const bool sinks =
+          speed < -none || ((speed <= none || is_slow(at, heights[static_cast<std::size_t>(all.corners[i])])) &&
+                            faster < -kNone * acceleration.norm());
+      if (!sinks) continue;
+      one.corners.push_back(all.corners[i]);
+      has_any = true;
+    }
+    ranges::sort(one.corners);
+  }
+  return has_any;
 }
 
 void ContactSettling::stand_still() {
   for (const int index : own()) {
     const RestingContact& contact = instant_.contacts[static_cast<std::size_t>(index)];
     const bool is_driven = world_.obstacles[static_cast<std::size_t>(contact.obstacle)].drive != nullptr;
-    const bool is_still = contact.mode.slip.is_held() &&
+    const bool is_still = contact.mode.slip.is_held() && !contact.core &&
                           (contact.mode.roll.is_held() || !body().rotation || bounding_radius(body().solid) == 0.0);
     if (is_still && !is_driven) instant_.q.segment<3>(body().offset + 3).setZero();
   }
 }
 
 std::string ContactSettling::settle(const std::vector<EndedMode>& ended, const Release& release) {
-  while (true) {
+  constexpr int kMostRounds = 50;
+  for (int round = 0; round < kMostRounds; ++round) {
     kinds_.clear();
     const std::vector<int> own = this->own();
     if (own.empty()) return "";
+    if (has_sunk()) return "a corner has sunk into the surface, where it was not seen to come";
     std::optional<BodyTerms<double>> terms = look();
     if (!terms) return "the way in which a table enters a velocity has no derivative";
     const std::vector<ContactQuestion> asked = questions(*terms, ended);
-    const std::vector<ContactMode> modes = modes_by_velocity(*terms, asked);
-    stop_held(*terms, asked, modes);
+    std::string failure;
+    if (!stop(*terms, asked, modes_by_velocity(*terms, asked), failure)) continue;
+    if (!failure.empty()) return failure;
+    restitution_ = 0.0;
+    int gone = -1;
+    if (!keep_touching(*(terms = look()), gone)) {
+      release(gone);
+      continue;
+    }
     terms = look();
-    const ContactDecision decision = decide_contacts(*terms, asked, modes);
+    // what others have bounced off may come back at once
+    if (are_closing(*terms) && round < kMostRounds / 2) continue;
+    const ContactDecision decision = decide_contacts(*terms, asked, modes_by_velocity(*terms, asked));
     if (decision.pulling >= 0) {
-      release(own[static_cast<std::size_t>(decision.pulling)]);
+      const auto pulling = static_cast<std::size_t>(decision.pulling);
+      if (terms->contacts[pulling].is_one()) {
+        release(own[pulling]);
+      } else {
+        narrow(contact(own[pulling]),
+               terms->contacts[pulling].remaining[static_cast<std::size_t>(decision.pulled_side)]);
+      }
       continue;
     }
     if (!decision.failure.empty()) return decision.failure;
+    if (take_sinking(*terms, decision.forces)) continue;
     for (std::size_t i = 0; i < own.size(); ++i) {
       RestingContact& contact = instant_.contacts[static_cast<std::size_t>(own[i])];
       contact.mode = decision.modes[i];
       contact.unknowns.clear();
       for (const ContactUnknown& each : decision.unknowns)
         if (each.contact == static_cast<int>(i)) contact.unknowns.push_back(each);
+      const auto point = static_cast<std::size_t>(terms->contacts[i].points[0]);
       const double force = terms->inverse_mass * decision.forces[i].force.norm();
       kinds_.push_back({{contact.body, contact.obstacle},
-                        kind_of(contact, terms->contacts[i], rates_by(*terms, decision.forces)[i], force)});
+                        kind_of(contact, terms->points[point], rates_by(*terms, decision.forces)[point], force)});
     }
     stand_still();
     return "";
   }
+  return "it cannot be decided which corners touch";
 }
 
 ImpactKind ContactSettling::kind_of(const RestingContact& contact, const ContactTerms<double>& at,
@@ -143,6 +321,7 @@ ImpactKind ContactSettling::kind_of(const RestingContact& contact, const Contact
     return slides ? ImpactKind::slide : ImpactKind::rest;
   }
   const double radius = bounding_radius(body().solid);
+  if (contact.corners.size() > 2) return ImpactKind::rest;
   if (!body().rotation || radius == 0.0 || contact.mode.roll.is_held()) return ImpactKind::rest;
   const bool turns =
       radius * along(at.turning) > kNone * speed || radius * along(at.turning_rate + by_forces.turning) > kNone * force;

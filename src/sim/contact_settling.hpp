@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "encounters.hpp"
 #include "instant.hpp"
 #include "trajet/collide/sustain/contact_decision.hpp"
 #include "trajet/sim/run_result.hpp"
@@ -16,6 +17,9 @@ struct EndedMode {
   ContactEnd end;
 };
 
+/// The contact goes on on some of its corners, counted as in `contact_points`.
+void narrow(RestingContact& contact, const std::vector<int>& remaining);
+
 /// How a body's lasting contacts go on that are not all plain: decides their modes, and takes out of the body's
 /// velocity what they do not let pass.
 class ContactSettling {
@@ -25,7 +29,9 @@ class ContactSettling {
   using Release = std::function<void(int contact)>;
 
   /// All outlive the object.
-  ContactSettling(const World& world, Instant& instant, int body) : world_(world), instant_(instant), body_(body) {}
+  /// `restitution`: of the speed at which corners come to a surface.
+  ContactSettling(const World& world, Encounters& encounters, Instant& instant, int body, double restitution = 0.0)
+      : world_(world), encounters_(encounters), instant_(instant), body_(body), restitution_(restitution) {}
 
   /// Why it cannot be decided; empty if it is.
   std::string settle(const std::vector<EndedMode>& ended, const Release& release);
@@ -44,9 +50,25 @@ class ContactSettling {
   /// Of the contacts of the instant, those of the body.
   std::vector<int> own() const;
   std::vector<ContactQuestion> questions(const BodyTerms<double>& terms, const std::vector<EndedMode>& ended) const;
-  /// Stops what its contacts hold.
-  void stop_held(const BodyTerms<double>& terms, const std::vector<ContactQuestion>& questions,
-                 const std::vector<ContactMode>& modes);
+  /// Stops what its contacts hold: of several corners, only where they push. False if they are fewer now.
+  bool stop(const BodyTerms<double>& terms, const std::vector<ContactQuestion>& questions,
+            const std::vector<ContactMode>& modes, std::string& failure);
+  /// Impulses that are linear in the velocities, with what becomes of their errors.
+  void apply(const BodyTerms<double>& terms, const std::vector<ContactQuestion>& questions,
+             const std::vector<ContactMode>& modes, const std::vector<ContactUnknown>& unknowns);
+  /// Leaves out the corners that depart; false if none is left of a contact, whose number is `gone`.
+  bool keep_touching(const BodyTerms<double>& terms, int& gone);
+  /// Whether what moves along the normal there is too slow for a flight that can be told from contact.
+  bool is_slow(const ContactTerms<double>& at, double height) const;
+  /// Whether a corner is far below its surface.
+  bool has_sunk();
+  /// Of the corners of a contact above the surface, m.
+  std::vector<double> heights_of(int contact);
+  /// Whether corners come to their surface still.
+  bool are_closing(const BodyTerms<double>& terms);
+  /// Of the corners that touch, those that forces and velocities let sink are taken on; whether there were any.
+  bool take_sinking(const BodyTerms<double>& terms, const std::vector<ContactForce<double>>& forces);
+  RestingContact& contact(int index) { return instant_.contacts[static_cast<std::size_t>(index)]; }
   /// What rounding has left of the velocity of a body that stands still.
   void stand_still();
   double speed_scale(const ContactTerms<double>& at) const;
@@ -55,8 +77,10 @@ class ContactSettling {
   const World::Body& body() const { return world_.bodies[static_cast<std::size_t>(body_)]; }
 
   const World& world_;
+  Encounters& encounters_;
   Instant& instant_;
   int body_;
+  double restitution_;
   std::vector<Kind> kinds_;
 };
 

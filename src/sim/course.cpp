@@ -94,8 +94,9 @@ void Course::begin(double t, const Eigen::VectorXd& q, const Instant* instant) {
   if (!switches_.empty()) enter_piece(t);
   const Eigen::VectorXd* before = instant != nullptr ? &instant->before() : nullptr;
   end_state_ = q;
-  orientations_.begin(end_state_, before);
-  closed_rotations_.begin(t, end_state_, before);
+  const std::vector<const World::Rotation*> pushed = held_law_.pushed_rotations();
+  orientations_.begin(end_state_, before, pushed);
+  closed_rotations_.begin(t, end_state_, before, pushed);
   if (scale_) scale_->begin(t, end_state_, law());
   if (const auto extended = instant != nullptr ? instant->extended() : std::nullopt) {
     // orientations were put right in double precision

@@ -43,7 +43,8 @@ void CourseWatches::watch_contacts() {
     for (const Program& condition : conditions.past_edges) watch(ContactEnd::past_edge, condition);
   }
   for (const ContactEndCondition& end : law_.ends())
-    watches_.push_back({kind_of(end.end), end.contact, EventWatch(end.program, CrossingDirection::rising), end.end});
+    watches_.push_back(
+        {kind_of(end.end), end.contact, EventWatch(end.program, CrossingDirection::rising), end.end, end.detail});
 }
 
 void CourseWatches::watch_holds() {
@@ -73,7 +74,7 @@ Crossing CourseWatches::next(const Segment<>& segment) const {
     const double ahead = direction * (next.time - watch.watch.next().time);
     if (ahead < 0.0 || (ahead == 0.0 && first != nullptr)) continue;
     first = &watch;
-    next = {watch.watch.next().time, watch.kind, watch.index, watch.watch.next().error_bound, watch.end};
+    next = {watch.watch.next().time, watch.kind, watch.index, watch.watch.next().error_bound, watch.end, watch.detail};
   }
   if (first == nullptr) return next;
   // of what cannot be told apart in time, the one that stands first is the next
@@ -85,6 +86,7 @@ Crossing CourseWatches::next(const Segment<>& segment) const {
   next.kind = now.kind;
   next.index = now.index;
   next.end = now.end;
+  next.detail = now.detail;
   return next;
 }
 

@@ -52,6 +52,7 @@ class CourseWatches {
     int index;
     EventWatch watch;
     ContactEnd end = ContactEnd::pull;  // of a lasting contact
+    int detail = 0;                     // as in ContactEndCondition
   };
 
   /// The place of an event's watch.

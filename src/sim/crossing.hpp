@@ -13,6 +13,7 @@ struct Crossing {
                   ///< changes its mode, or of the hold that lets go
   double error_bound = 0.0;           ///< s
   ContactEnd end = ContactEnd::pull;  ///< of a lasting contact
+  int detail = 0;                     ///< as in ContactEndCondition
 };
 
 }  // namespace trajet

@@ -34,7 +34,8 @@ HeldCourseLaw::HeldCourseLaw(const World& world, int group)
 
 bool HeldCourseLaw::take(const std::vector<RestingContact>& contacts, std::vector<EventHold> holds) {
   const auto same = [](const RestingContact& a, const RestingContact& b) {
-    const bool is_same = a.body == b.body && a.obstacle == b.obstacle && a.is_plain == b.is_plain && a.mode == b.mode;
+    const bool is_same = a.body == b.body && a.obstacle == b.obstacle && a.is_plain == b.is_plain && a.mode == b.mode &&
+                         a.corners == b.corners;
     return is_same && a.unknowns == b.unknowns && (!a.is_plain || (a.normal == b.normal && a.point == b.point));
   };
   const bool are_others = !ranges::equal(contacts_, contacts, same) ||
@@ -53,6 +54,15 @@ bool HeldCourseLaw::take(const std::vector<RestingContact>& contacts, std::vecto
   ends_.clear();
   if (!contacts_.empty() || !holds_.empty()) held_ = std::make_unique<ProgramSystem>(with(contacts_, holds_, &ends_));
   return true;
+}
+
+std::vector<const World::Rotation*> HeldCourseLaw::pushed_rotations() const {
+  std::vector<const World::Rotation*> pushed;
+  for (const RestingContact& contact : contacts_) {
+    const auto& rotation = world_.bodies[static_cast<std::size_t>(contact.body)].rotation;
+    if (!contact.is_plain && rotation) pushed.push_back(&*rotation);
+  }
+  return pushed;
 }
 
 bool HeldCourseLaw::is_held(int event) const {

@@ -24,6 +24,8 @@ class HeldCourseLaw {
   /// From now on it is these that hold. Whether they are others than before.
   bool take(const std::vector<RestingContact>& contacts, std::vector<EventHold> holds);
   bool is_held(int event) const;
+  /// Those that the forces of contacts change.
+  std::vector<const World::Rotation*> pushed_rotations() const;
   /// What ends the contacts that are not plain: their `contact` counts `contacts`.
   const std::vector<ContactEndCondition>& ends() const { return ends_; }
   /// The group's law with contacts and holds. `ends`: if not null, gets what ends the contacts that are not plain.

@@ -4,7 +4,10 @@
 #include <cmath>
 #include <variant>
 
+#include "body_state.hpp"
 #include "impact_record.hpp"
+#include "impact_sides.hpp"
+#include "solid_contact.hpp"
 #include "sustained.hpp"
 #include "trajet/collide/sustain/rest.hpp"
 #include "trajet/geom/closest_point.hpp"
@@ -36,6 +39,8 @@ Vector3 closest_point_of(const Shape& shape, const Vector3& p) {
 std::optional<RestingContact> LastingContacts::contact_at(const Instant& instant, PairId id, const Vector3& point,
                                                           const Vector3& normal) const {
   const int offset = body(id.body).offset;
+  if (!is_round(body(id.body).solid))
+    return solid_contact(world_, id, encounters_.frame(id.obstacle, instant.time()), point, normal, instant.q);
   const Vector3 position = instant.q.segment<3>(offset);
   const Vector3 velocity = instant.q.segment<3>(offset + 3);
   const Vector3 place = ahead_of(point, velocity - velocity.dot(normal) * normal);
@@ -57,7 +62,7 @@ double LastingContacts::pull_on(const Instant& instant, const RestingContact& co
   const auto terms =
       contact_terms(world_, instant.course().group().law, {contact}, contact.body, instant.time(), instant.q);
   if (!terms) return 0.0;
-  const ContactTerms<double>& at = terms->contacts[0];
+  const ContactTerms<double>& at = terms->points[0];
   return -(at.normal.dot(at.slip_rate) + at.normal_rate.dot(at.slip));
 }
 
@@ -76,13 +81,15 @@ void LastingContacts::release_moving(Instant& instant, int moved) {
   const int offset = body(moved).offset;
   const double rounding =
       64.0 * kUnitRoundoff * (instant.q.segment<3>(offset + 3).norm() + instant.before().segment<3>(offset + 3).norm());
-  const std::optional<BodyTerms<double>> terms = ContactSettling(world_, instant, moved).look();
+  const std::optional<BodyTerms<double>> terms = ContactSettling(world_, encounters_, instant, moved).look();
   if (!terms) return;
-  std::size_t number = terms->contacts.size();
+  std::size_t number = terms->points.size(), count = terms->contacts.size();
   for (std::size_t i = instant.contacts.size(); i-- > 0;) {
     const RestingContact contact = instant.contacts[i];
     if (contact.body != moved) continue;
-    const ContactTerms<double>& at = terms->contacts[--number];
+    number -= terms->contacts[static_cast<std::size_t>(--count)].points.size();
+    const ContactTerms<double>& at = terms->points[number];
+    if (contact.core) continue;  // its corners are looked at one by one
     const double speed = at.normal.dot(at.slip);
     const double pull = -(at.normal.dot(at.slip_rate) + at.normal_rate.dot(at.slip));
     const double tolerance = encounters_.pair({contact.body, contact.obstacle}).memory.tolerance;
@@ -117,24 +124,28 @@ std::string LastingContacts::release_by_speed(Instant& instant, int moved) {
   return "";
 }
 
+void LastingContacts::keep_kinds(const ContactSettling& settling, const Instant& instant) {
+  for (const auto& [id, kind] : settling.kinds()) {
+    const ImpactKind was = kinds_[{id.body, id.obstacle}];
+    keep_kind(id, kind);
+    const bool is_to_come = ranges::any_of(coming_, [&, id = id](const Coming& each) { return each.id == id; });
+    if (kind == was || is_to_come) continue;
+    const auto contact = ranges::find_if(instant.contacts, [&, id = id](const RestingContact& each) {
+      return PairId{each.body, each.obstacle} == id;
+    });
+    record(*contact, kind, instant.time(), instant.q);
+  }
+}
+
 std::string LastingContacts::release_by_force(Instant& instant, int held, const std::vector<EndedMode>& ended) {
   if (!are_plain(instant.contacts, held)) {
-    ContactSettling settling(world_, instant, held);
+    ContactSettling settling(world_, encounters_, instant, held);
     const std::string failure = settling.settle(ended, [&](int index) {
       const RestingContact contact = instant.contacts[static_cast<std::size_t>(index)];
       record(contact, ImpactKind::leave, instant.time(), instant.q);
       release(instant, index);
     });
-    for (const auto& [id, kind] : settling.kinds()) {
-      const ImpactKind was = kinds_[{id.body, id.obstacle}];
-      keep_kind(id, kind);
-      const bool is_to_come = ranges::any_of(coming_, [&, id = id](const Coming& each) { return each.id == id; });
-      if (kind == was || is_to_come) continue;
-      const auto contact = ranges::find_if(instant.contacts, [&, id = id](const RestingContact& each) {
-        return PairId{each.body, each.obstacle} == id;
-      });
-      record(*contact, kind, instant.time(), instant.q);
-    }
+    keep_kinds(settling, instant);
     return failure;
   }
   const int offset = body(held).offset;
@@ -179,6 +190,10 @@ ContactMemory& LastingContacts::release(Instant& instant, int index) {
   memory.contact_time = instant.time();
   // what the body has drifted off the surface while it rested is still contact
   const std::optional<FrameMotion> frame = encounters_.frame(contact.obstacle, instant.time());
+  if (contact.core) {
+    end(instant, index);
+    return instant.memories.emplace_back(id, memory_of_corners(world_, contact, frame, instant.q, memory)).second;
+  }
   const Vector3 place = instant.q.segment<3>(contact.offset);
   const Vector3 position = frame ? frame->to_start(place) : place;
   const Vector3 normal = frame ? Vector3(frame->R.transpose() * contact.normal) : contact.normal;
@@ -315,10 +330,54 @@ std::optional<RestingContact> LastingContacts::next_patch(const Instant& instant
   return next;
 }
 
-std::string LastingContacts::handle_end(Instant& instant, int index, ContactEnd end, double time_error_bound) {
+std::string LastingContacts::touch(Instant& instant, int index, double time_error_bound) {
+  RestingContact& contact = instant.contacts[static_cast<std::size_t>(index)];
+  const int held = contact.body;
+  const PairId id{held, contact.obstacle};
+  const auto frame = encounters_.frame(contact.obstacle, instant.time());
+  contact.corners = touching_corners(world_, contact, frame, instant.q);
+  const Eigen::VectorXd before = instant.q;
+  const auto terms = ContactSettling(world_, encounters_, instant, held).look();
+  if (!terms) return "the way in which a table enters a velocity has no derivative";
+  double speed = 0.0, pull = 0.0;
+  for (const ContactTerms<double>& at : terms->points) {
+    speed = std::max(speed, -at.normal.dot(at.slip));
+    pull = std::max(pull, std::abs(at.normal.dot(at.slip_rate)));
+  }
+  const double tolerance = encounters_.pair(id).memory.tolerance;
+  const bool is_low = is_below_flight(speed, pull, tolerance);
+  const double restitution = is_low ? 0.0 : world_.surface(held, id.obstacle).restitution.at(speed);
+  Impact impact = describe(world_, contact, ImpactKind::hit, instant.time(), before);
+  impact.time_error_bound = time_error_bound;
+  ContactSettling settling(world_, encounters_, instant, held, std::clamp(restitution, 0.0, 1.0));
+  std::vector<RestingContact> left;
+  const std::string failure = settling.settle({}, [&](int released) {
+    left.push_back(instant.contacts[static_cast<std::size_t>(released)]);
+    release(instant, released);
+  });
+  const BodySlice slice = body(held).slice();
+  impact.velocity_after = slice.velocity(instant.q);
+  impact.angular_velocity_after = angular_velocity(body(held), instant.q);
+  impact.impulse = mass_of(body(held), instant.time(), instant.q) * (impact.velocity_after - impact.velocity_before);
+  if (!is_low) recorder_.impact(impact);
+  for (const RestingContact& each : left) record(each, ImpactKind::leave, instant.time(), instant.q);
+  keep_kinds(settling, instant);
+  return failure;
+}
+
+std::string LastingContacts::handle_end(Instant& instant, int index, ContactEnd end, int detail,
+                                        double time_error_bound) {
   if (!are_plain(instant.contacts, instant.contacts[static_cast<std::size_t>(index)].body))
-    ContactSettling(world_, instant, instant.contacts[static_cast<std::size_t>(index)].body).look();
+    ContactSettling(world_, encounters_, instant, instant.contacts[static_cast<std::size_t>(index)].body).look();
   const RestingContact contact = instant.contacts[static_cast<std::size_t>(index)];
+  if (end == ContactEnd::one_stops)
+    return "it turns about one of its corners, which sticks while others slide: that is not computed yet";
+  if (end == ContactEnd::touches) return touch(instant, index, time_error_bound);
+  if (end == ContactEnd::tips) {
+    const auto points = contact_points({sustained_contact(world_, contact)}).front();
+    narrow(instant.contacts[static_cast<std::size_t>(index)], points.remaining[static_cast<std::size_t>(detail)]);
+    return release_by_force(instant, contact.body);
+  }
   if (end != ContactEnd::pull && end != ContactEnd::past_edge)
     return release_by_force(instant, contact.body, {{{contact.body, contact.obstacle}, end}});
   if (end == ContactEnd::past_edge && !continuation(contact, instant.q)) {

@@ -44,7 +44,7 @@ class LastingContacts {
   std::string release_after_set(Instant& instant);
   /// Ends the contact of that index by itself, or the way in which it lasts. `time_error_bound`: of its end, s. Why it
   /// cannot be followed; empty if it is.
-  std::string handle_end(Instant& instant, int contact, ContactEnd end, double time_error_bound);
+  std::string handle_end(Instant& instant, int contact, ContactEnd end, int detail, double time_error_bound);
   /// Where the face of a contact goes on without a step ahead of the body, the pair with the obstacle on which it does.
   std::optional<PairId> continuation(const RestingContact& left, const Eigen::VectorXd& q) const;
   /// Whether a face on which the body slides goes on without a step on that obstacle, whose edge is nothing to hit.
@@ -56,6 +56,10 @@ class LastingContacts {
   /// Takes the speed at which the contacts of a body, not all plain, depart or close.
   void release_moving(Instant& instant, int body);
   void keep_kind(PairId id, ImpactKind kind);
+  /// Keeps and reports how contacts go on.
+  void keep_kinds(const ContactSettling& settling, const Instant& instant);
+  /// Another corner of a solid comes to the surface on which the solid stays.
+  std::string touch(Instant& instant, int contact, double time_error_bound);
   /// Ends a contact; its pair remembers it.
   ContactMemory& release(Instant& instant, int contact);
   void end(Instant& instant, int contact);

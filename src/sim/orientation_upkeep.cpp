@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "trajet/portable.hpp"
 #include "trajet/rigid/kinematics.hpp"
 
 namespace trajet {
@@ -51,7 +52,8 @@ double OrientationUpkeep::tolerance_factor() const {
   return 1.0;
 }
 
-void OrientationUpkeep::begin(Eigen::VectorXd& q, const Eigen::VectorXd* before) {
+void OrientationUpkeep::begin(Eigen::VectorXd& q, const Eigen::VectorXd* before,
+                              const std::vector<const World::Rotation*>& pushed) {
   for (Turning& turning : turning_) {
     const World::Rotation& rotation = *turning.rotation;
     const OrientationLayout& layout = rotation.layout;
@@ -60,8 +62,12 @@ void OrientationUpkeep::begin(Eigen::VectorXd& q, const Eigen::VectorXd* before)
                                                              before->segment(turning.offset(), turning.size());
     layout.settle(part);
     turning.correction = Eigen::VectorXd::Zero(turning.size());
+    turning.is_pushed = ranges::find(pushed, turning.rotation) != pushed.end();
+    if (turning.is_pushed) turning.invariants.reset();
     const bool is_left_alone = layout.way == OrientationWay::quaternion || layout.way == OrientationWay::matrix;
-    if (!rotation.is_free || !rotation.inertia || is_left_alone || layout.way == OrientationWay::exact) continue;
+    if (turning.is_pushed || !rotation.is_free || !rotation.inertia || is_left_alone ||
+        layout.way == OrientationWay::exact)
+      continue;
     if (turning.invariants && goes_on_as_it_came) continue;
     turning.invariants.emplace(layout.quaternion(part).normalized(), q.segment<3>(rotation.offset + layout.size()),
                                *rotation.inertia);
@@ -91,7 +97,7 @@ Eigen::VectorXd OrientationUpkeep::right_numbers(const Turning& turning, const E
 
 void OrientationUpkeep::end_step(Segment<>& segment, Eigen::VectorXd& end) {
   for (Turning& turning : turning_) {
-    if (turning.rotation->layout.way == OrientationWay::exact) continue;
+    if (turning.rotation->layout.way == OrientationWay::exact && !turning.is_pushed) continue;
     auto numbers = end.segment(turning.offset(), turning.size());
     const Eigen::VectorXd right = right_numbers(turning, numbers);
     const Eigen::VectorXd correction = right - numbers;

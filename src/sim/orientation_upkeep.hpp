@@ -21,8 +21,8 @@ class OrientationUpkeep {
   /// By how much the tolerance of a step is less than that which is asked for.
   double tolerance_factor() const;
   /// A motion starts in state q, or goes on there from state `before`; orientations are put right. What a free top
-  /// keeps, it keeps where it goes on as it came.
-  void begin(Eigen::VectorXd& q, const Eigen::VectorXd* before = nullptr);
+  /// keeps, it keeps where it goes on as it came. `pushed`: the rotations that contacts change, which are not free.
+  void begin(Eigen::VectorXd& q, const Eigen::VectorXd* before, const std::vector<const World::Rotation*>& pushed);
   /// A step has ended in the stepper's state `end`, which becomes right; `segment`, which is the step, is bent.
   void end_step(Segment<>& segment, Eigen::VectorXd& end);
   /// The stepper goes on from the state as it was put right. Where it does not, the next step is bent at its start too.
@@ -33,6 +33,7 @@ class OrientationUpkeep {
  private:
   struct Turning {
     const World::Rotation* rotation;
+    bool is_pushed = false;
     std::optional<FreeInvariants> invariants{};  // of a free top whose way keeps them
     Eigen::VectorXd correction{};                // of its numbers where the current step began, and then where it ended
 

@@ -19,7 +19,7 @@ std::shared_ptr<const Program> borrowed(const Program& program) { return {std::s
 
 SustainedBody sustained_body(const World& world, int index) {
   const World::Body& body = world.bodies[static_cast<std::size_t>(index)];
-  SustainedBody result{.offset = body.offset, .inertia = body.inertia, .radius = bounding_radius(body.solid)};
+  SustainedBody result{.offset = body.offset, .inertia = body.inertia, .R_WB = rotation_matrix(body.q_WB)};
   if (body.mass) result.mass = borrowed(*body.mass);
   if (body.rotation) {
     result.layout = body.rotation->layout;
@@ -28,12 +28,24 @@ SustainedBody sustained_body(const World& world, int index) {
   return result;
 }
 
+SupportCorner support_corner(const ConvexCore& core, int vertex) {
+  const auto place = static_cast<std::size_t>(vertex);
+  return {core.vertices[place], core.is_spread() ? core.spreads[place] : Matrix3(Matrix3::Zero()), core.rounding};
+}
+
 SustainedContact sustained_contact(const World& world, const RestingContact& contact) {
   const World::Obstacle& obstacle = world.obstacles[static_cast<std::size_t>(contact.obstacle)];
   const Surface& surface = world.surface(contact.body, contact.obstacle);
   SustainedContact result{.patch = contact.patch,
                           .friction = {surface.friction, surface.rolling_friction, surface.spinning_friction},
                           .mode = contact.mode};
+  if (contact.core) {
+    for (int i = 0; i < static_cast<int>(contact.core->vertices.size()); ++i)
+      (ranges::find(contact.corners, i) != contact.corners.end() ? result.corners : result.others)
+          .push_back(support_corner(*contact.core, i));
+  } else {
+    result.corners = {{.rounding = bounding_radius(world.bodies[static_cast<std::size_t>(contact.body)].solid)}};
+  }
   if (obstacle.drive) {
     result.pose = borrowed(obstacle.drive->pose);
     result.pivot = obstacle.drive->pivot;

@@ -13,7 +13,9 @@ namespace trajet {
 
 /// A body as its lasting contacts see it.
 SustainedBody sustained_body(const World& world, int body);
-/// A lasting contact as its law sees it.
+/// A vertex of a core, as one of the body that touches.
+SupportCorner support_corner(const ConvexCore& core, int vertex);
+/// A lasting contact as its law sees it. Corners are in the order of the core's vertices.
 SustainedContact sustained_contact(const World& world, const RestingContact& contact);
 
 /// Those of several contacts that are of one body.

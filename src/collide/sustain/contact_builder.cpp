@@ -19,7 +19,7 @@ Vector3 direction_across(const Vector3& normal) {
 
 ContactBuilder::ContactBuilder(ProgramBuilder& builder, const Program& law, const SustainedBody& body,
                                const std::vector<SustainedContact>& contacts)
-    : builder_(builder), body_(body), contacts_(contacts), turns_(body.layout.has_value() && body.radius > 0.0) {
+    : builder_(builder), body_(body), contacts_(contacts) {
   of_inputs_.push_back(builder.constant_node({1.0}));
   for (std::size_t i = 0; i < law.outputs.size(); ++i)
     of_inputs_.push_back(builder.output_of_base(static_cast<int>(i)));
@@ -29,7 +29,8 @@ ContactBuilder::ContactBuilder(ProgramBuilder& builder, const Program& law, cons
   if (body.mass) terms_.inverse_mass = ProgramNumber(1.0) / ProgramNumber(builder, builder.insert(*body.mass).front());
   terms_.inverse_inertia.setConstant(ProgramNumber(0.0));
   w_.setConstant(ProgramNumber(0.0));
-  if (turns_) {
+  R_WB_ = body.R_WB.cast<ProgramNumber>();
+  if (body.layout) {
     std::vector<ProgramNumber> numbers;
     for (int i = 0; i < body.layout->size(); ++i) numbers.emplace_back(builder, 1 + body.rotation_offset + i);
     R_WB_ = body.layout->rotation(numbers.data());
@@ -44,6 +45,7 @@ ContactBuilder::ContactBuilder(ProgramBuilder& builder, const Program& law, cons
       }
     }
   }
+  terms_.contacts = contact_points(contacts);
   for (const SustainedContact& contact : contacts) add_contact(contact);
 }
 
@@ -75,14 +77,38 @@ ContactBuilder::Vector ContactBuilder::seen_by(const SustainedContact& contact, 
   return contact.pivot.cast<ProgramNumber>() + frame.R.transpose() * (place - frame.place);
 }
 
+ContactBuilder::Vector ContactBuilder::arm_of(const SupportCorner& corner, const Vector& normal) const {
+  Vector arm = normal * ProgramNumber(-corner.rounding);
+  if (corner.is_ball()) return arm;
+  Vector p_B = corner.p_B.cast<ProgramNumber>();
+  if (corner.is_spread()) {
+    // the point of {E y} farthest down: E E^T m / |E^T m|, m the direction down in the body
+    const Matrix E = corner.spread.cast<ProgramNumber>();
+    const Vector down = R_WB_.transpose() * Vector(-normal);
+    const Vector pulled = E.transpose() * down;
+    p_B += E * pulled * (ProgramNumber(1.0) / sqrt(pulled.dot(pulled)));
+  }
+  return arm + R_WB_ * p_B;
+}
+
 void ContactBuilder::add_contact(const SustainedContact& contact) {
   const Frame frame = frame_of(contact);
   const Vector normal_at_start = normal_of<ProgramNumber>(contact.patch, seen_by(contact, frame, position_));
   ContactTerms<ProgramNumber> at;
   at.normal = contact.pose ? Vector(frame.R * normal_at_start) : normal_at_start;
-  at.arm = at.normal * ProgramNumber(-body_.radius);
-  Vector surface_velocity, surface_turning;
-  surface_velocity.setConstant(ProgramNumber(0.0));
+  at.normal_rate = rate_of(at.normal);
+  const Vector3 across = direction_across(contact.patch.axis);
+  if (contact.patch.is_flat()) {
+    at.tangents[0] = frame.R * across.cast<ProgramNumber>();
+    at.tangents[1] = frame.R * contact.patch.axis.cross(across).cast<ProgramNumber>();
+  } else {
+    const Vector first = at.normal.cross(Vector(frame.R * across.cast<ProgramNumber>()));
+    at.tangents[0] = first * (ProgramNumber(1.0) / sqrt(first.dot(first)));
+    at.tangents[1] = at.normal.cross(at.tangents[0]);
+  }
+  for (int i = 0; i < 2; ++i) at.tangent_rates[i] = rate_of(at.tangents[i]);
+  Vector place_rate, surface_turning;
+  place_rate.setConstant(ProgramNumber(0.0));
   surface_turning.setConstant(ProgramNumber(0.0));
   if (contact.pose) {
     // of what is fixed in the obstacle: v = v_D + w_D x (p - p_D), w_D~ = dR/dt R^T
@@ -90,43 +116,45 @@ void ContactBuilder::add_contact(const SustainedContact& contact) {
     for (int i = 0; i < 9; ++i) R_rate(i / 3, i % 3) = rate_of(frame.R(i / 3, i % 3));
     const Matrix w_cross = R_rate * frame.R.transpose();
     surface_turning = {w_cross(2, 1), w_cross(0, 2), w_cross(1, 0)};
-    surface_velocity = rate_of(frame.place) + surface_turning.cross(Vector(position_ + at.arm - frame.place));
+    place_rate = rate_of(frame.place);
   }
-  at.slip = velocity_ + w_.cross(at.arm) - surface_velocity;
   at.turning = w_ - surface_turning;
-  at.normal_rate = rate_of(at.normal);
-  at.slip_rate = rate_of(at.slip);
   at.turning_rate = rate_of(at.turning);
-  if (contact.patch.is_flat()) {
-    const Vector3 across = direction_across(contact.patch.axis);
-    at.tangents[0] = frame.R * across.cast<ProgramNumber>();
-    at.tangents[1] = frame.R * contact.patch.axis.cross(across).cast<ProgramNumber>();
-  } else {
-    const Vector3 across = direction_across(contact.patch.axis);
-    const Vector first = at.normal.cross(Vector(frame.R * across.cast<ProgramNumber>()));
-    at.tangents[0] = first * (ProgramNumber(1.0) / sqrt(first.dot(first)));
-    at.tangents[1] = at.normal.cross(at.tangents[0]);
+  for (const SupportCorner& corner : contact.corners) {
+    at.arm = arm_of(corner, at.normal);
+    Vector surface_velocity = place_rate;
+    if (contact.pose) surface_velocity += surface_turning.cross(Vector(position_ + at.arm - frame.place));
+    at.slip = velocity_ + w_.cross(at.arm) - surface_velocity;
+    at.slip_rate = rate_of(at.slip);
+    terms_.points.push_back(at);
   }
-  for (int i = 0; i < 2; ++i) at.tangent_rates[i] = rate_of(at.tangents[i]);
-  terms_.contacts.push_back(at);
+}
+
+ProgramNumber ContactBuilder::height(std::size_t index, const SupportCorner& corner) {
+  const SustainedContact& contact = contacts_[index];
+  const Frame frame = frame_of(contact);
+  const Vector3& axis = contact.patch.axis;
+  const Vector normal = contact.pose ? Vector(frame.R * axis.cast<ProgramNumber>()) : axis.cast<ProgramNumber>().eval();
+  const Vector place = seen_by(contact, frame, position_ + arm_of(corner, normal));
+  return axis.cast<ProgramNumber>().dot(place) - ProgramNumber(axis.dot(contact.patch.center));
 }
 
 std::vector<int> ContactBuilder::rates_with(const std::vector<ContactForce<ProgramNumber>>& forces) {
   std::vector<ProgramNumber> rates;
   for (std::size_t i = 1; i < of_inputs_.size(); ++i) rates.emplace_back(builder_, of_inputs_[i]);
-  Vector force, torque;
+  Vector force, moment;
   force.setConstant(ProgramNumber(0.0));
-  torque.setConstant(ProgramNumber(0.0));
-  for (std::size_t c = 0; c < forces.size(); ++c) {
-    force += forces[c].force;
-    torque += terms_.contacts[c].arm.cross(forces[c].force) + forces[c].torque;
+  moment.setConstant(ProgramNumber(0.0));
+  for (const ContactForce<ProgramNumber>& each : forces) {
+    force += each.force;
+    moment += each.moment;
   }
   const auto add = [&](int first, const Vector& change) {
     for (int i = 0; i < 3; ++i) rates[static_cast<std::size_t>(first + i)] += change[i];
   };
   add(body_.offset + 3, force * terms_.inverse_mass);
-  if (turns_ && body_.inertia) {
-    Vector turning = terms_.inverse_inertia * torque;
+  if (body_.layout && body_.inertia) {
+    Vector turning = terms_.inverse_inertia * moment;
     if (body_.layout->frame == trajet::Frame::body) turning = Vector(R_WB_.transpose() * turning);
     add(body_.rotation_offset + body_.layout->size(), turning);
   }
@@ -137,17 +165,27 @@ std::vector<int> ContactBuilder::rates_with(const std::vector<ContactForce<Progr
 
 std::vector<ProgramNumber> ContactBuilder::past_edges(std::size_t index) {
   const SustainedContact& contact = contacts_[index];
-  const Vector place = seen_by(contact, frame_of(contact), position_);
+  const Frame frame = frame_of(contact);
   std::vector<ProgramNumber> past;
-  for (const FaceEdge& edge : contact.patch.edges)
-    past.push_back(edge.direction.cast<ProgramNumber>().dot(place) - ProgramNumber(edge.limit));
-  const auto beyond = [&](const FaceRim& rim, double sign) {
-    const Vector arm = place - rim.center.cast<ProgramNumber>();
-    const ProgramNumber height = rim.normal.cast<ProgramNumber>().dot(arm);
-    past.push_back(ProgramNumber(sign) * (arm.dot(arm) - height * height - ProgramNumber(rim.radius * rim.radius)));
+  const auto add = [&](const Vector& place) {
+    for (const FaceEdge& edge : contact.patch.edges)
+      past.push_back(edge.direction.cast<ProgramNumber>().dot(place) - ProgramNumber(edge.limit));
+    const auto beyond = [&](const FaceRim& rim, double sign) {
+      const Vector arm = place - rim.center.cast<ProgramNumber>();
+      const ProgramNumber height = rim.normal.cast<ProgramNumber>().dot(arm);
+      past.push_back(ProgramNumber(sign) * (arm.dot(arm) - height * height - ProgramNumber(rim.radius * rim.radius)));
+    };
+    if (contact.patch.outer_rim) beyond(*contact.patch.outer_rim, 1.0);
+    if (contact.patch.inner_rim) beyond(*contact.patch.inner_rim, -1.0);
   };
-  if (contact.patch.outer_rim) beyond(*contact.patch.outer_rim, 1.0);
-  if (contact.patch.inner_rim) beyond(*contact.patch.inner_rim, -1.0);
+  if (contact.corners.front().is_ball()) {
+    add(seen_by(contact, frame, position_));
+  } else {
+    std::size_t first = 0;
+    for (std::size_t i = 0; i < index; ++i) first += contacts_[i].corners.size();
+    for (std::size_t i = 0; i < contact.corners.size(); ++i)
+      add(seen_by(contact, frame, position_ + terms_.points[first + i].arm));
+  }
   return past;
 }
 

@@ -21,6 +21,8 @@ class ContactBuilder {
   std::vector<int> rates_with(const std::vector<ContactForce<ProgramNumber>>& forces);
   /// How far the body is past each end of the contact's patch.
   std::vector<ProgramNumber> past_edges(std::size_t contact);
+  /// How high a corner of the body is above the contact's patch, which is flat.
+  ProgramNumber height(std::size_t contact, const SupportCorner& corner);
 
  private:
   using Vector = Vector3T<ProgramNumber>;
@@ -38,6 +40,8 @@ class ContactBuilder {
   Frame frame_of(const SustainedContact& contact);
   /// The body's position as the obstacle saw it at the start.
   Vector seen_by(const SustainedContact& contact, const Frame& frame, const Vector& place) const;
+  /// From the centre of mass to where a corner touches a surface of that normal.
+  Vector arm_of(const SupportCorner& corner, const Vector& normal) const;
   void add_contact(const SustainedContact& contact);
 
   ProgramBuilder& builder_;
@@ -46,7 +50,6 @@ class ContactBuilder {
   bool has_derivatives_ = true;
   std::vector<int> of_inputs_;  // 1 and the law's rates
   Vector position_, velocity_;  // velocity: the rate of the position
-  bool turns_ = false;
   Matrix R_WB_;
   Vector w_;  // world frame
   BodyTerms<ProgramNumber> terms_;

@@ -5,19 +5,19 @@
 namespace trajet {
 
 std::vector<ContactRates> rates_by(const BodyTerms<double>& terms, const std::vector<ContactForce<double>>& forces) {
-  Vector3 acceleration = Vector3::Zero(), torque = Vector3::Zero();
-  for (std::size_t c = 0; c < forces.size(); ++c) {
-    acceleration += terms.inverse_mass * forces[c].force;
-    torque += terms.contacts[c].arm.cross(forces[c].force) + forces[c].torque;
+  Vector3 acceleration = Vector3::Zero(), moment = Vector3::Zero();
+  for (const ContactForce<double>& each : forces) {
+    acceleration += terms.inverse_mass * each.force;
+    moment += each.moment;
   }
-  const Vector3 turning = terms.inverse_inertia * torque;
+  const Vector3 turning = terms.inverse_inertia * moment;
   std::vector<ContactRates> rates;
-  for (const ContactTerms<double>& at : terms.contacts)
-    rates.push_back({acceleration + turning.cross(at.arm), turning});
+  for (const ContactTerms<double>& at : terms.points) rates.push_back({acceleration + turning.cross(at.arm), turning});
   return rates;
 }
 
-std::vector<ContactUnknown> contact_unknowns(const std::vector<ContactMode>& modes) {
+std::vector<ContactUnknown> contact_unknowns(const std::vector<ContactPoints>& contacts,
+                                             const std::vector<ContactMode>& modes) {
   using Kind = ContactUnknown::Kind;
   std::vector<ContactUnknown> unknowns;
   for (int c = 0; c < static_cast<int>(modes.size()); ++c) {
@@ -25,6 +25,14 @@ std::vector<ContactUnknown> contact_unknowns(const std::vector<ContactMode>& mod
     const auto add = [&](Kind kind, int count) {
       for (int i = 0; i < count; ++i) unknowns.push_back({c, kind, i});
     };
+    const ContactPoints& contact = contacts[static_cast<std::size_t>(c)];
+    if (!contact.is_one()) {
+      add(Kind::normal, static_cast<int>(contact.shares.rows()));
+      if (!mode.slip.is_held()) continue;
+      add(Kind::hold, 2);
+      add(Kind::spin, 1);
+      continue;
+    }
     mode.slip.is_held() ? add(Kind::force, 3) : add(Kind::normal, 1);
     if (mode.roll.is_held() && mode.spin.is_held()) {
       add(Kind::turn, 3);
@@ -40,14 +48,13 @@ std::vector<ContactUnknown> contact_unknowns(const std::vector<ContactMode>& mod
 std::vector<ContactUnknown> independent_unknowns(const BodyTerms<double>& terms, const std::vector<ContactMode>& modes,
                                                  const std::vector<FrictionCoefficients>& friction) {
   const detail::ContactSystem<double> system(terms, modes, friction);
-  std::vector<ContactUnknown> left = contact_unknowns(modes), kept;
+  std::vector<ContactUnknown> left = contact_unknowns(terms.contacts, modes), kept;
   const auto n = static_cast<Eigen::Index>(left.size());
   Eigen::MatrixXd a(n, n);
   for (Eigen::Index j = 0; j < n; ++j) {
     const auto& x = left[static_cast<std::size_t>(j)];
     const auto wrench = system.wrench(x);
-    for (Eigen::Index i = 0; i < n; ++i)
-      a(i, j) = system.response(left[static_cast<std::size_t>(i)], wrench, x.contact);
+    for (Eigen::Index i = 0; i < n; ++i) a(i, j) = system.response(left[static_cast<std::size_t>(i)], wrench);
   }
   // Gaussian elimination with pivots on the diagonal; what is left of a dependent one is rounding
   constexpr double kDependent = 1e-9;

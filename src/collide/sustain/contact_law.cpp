@@ -16,6 +16,11 @@ using NumberVector = Vector3T<ProgramNumber>;
 constexpr double kStraight = 1e-13;
 /// And so small a one has stopped, where its direction follows it.
 constexpr double kStopped = 1e-11;
+/// And one point among several that move, where its part of their motion is so small.
+constexpr double kOneStops = 1e-5;
+
+/// A corner that is so much deeper than the surface, of its distance from the centre of mass, has come to it unseen.
+constexpr double kDeep = 1e-8;
 
 void push(const NumberVector& v, ProgramBuilder& builder, std::vector<int>& nodes) {
   for (int i = 0; i < 3; ++i) nodes.push_back(v[i].node(builder));
@@ -23,33 +28,40 @@ void push(const NumberVector& v, ProgramBuilder& builder, std::vector<int>& node
 
 ProgramNumber square(const ProgramNumber& x) { return x * x; }
 
-/// The conditions that end what a resistance does.
+/// The conditions that end what a resistance does: of motions at the points of a contact.
 class ResistanceEnds {
  public:
-  ResistanceEnds(const Resistance& resistance, const NumberVector& motion, const NumberVector& normal)
-      : resistance_(resistance), motion_(motion), normal_(normal) {}
+  ResistanceEnds(const Resistance& resistance, std::vector<NumberVector> motions, const NumberVector& normal)
+      : resistance_(resistance), motions_(std::move(motions)), normal_(normal) {}
 
   /// The motion along its direction turns round.
-  ProgramNumber turns_round() const { return -resistance_.direction.cast<ProgramNumber>().dot(motion_); }
+  ProgramNumber turns_round() const { return -resistance_.direction.cast<ProgramNumber>().dot(motions_.front()); }
   /// The motion has died.
-  ProgramNumber dies() const {
-    return ProgramNumber(kStopped * kStopped * resistance_.scale * resistance_.scale) - motion_.dot(motion_);
+  ProgramNumber dies() const { return below(kStopped) - squares(); }
+  ProgramNumber one_dies(const NumberVector& motion) const {
+    return ProgramNumber(kOneStops * kOneStops) * squares() - motion.dot(motion);
   }
   /// The motion is fast enough for a direction of its own.
-  ProgramNumber has_begun() const {
-    return motion_.dot(motion_) - ProgramNumber(kBegun * kBegun * resistance_.scale * resistance_.scale);
-  }
+  ProgramNumber has_begun() const { return squares() - below(kBegun); }
   /// The motion is not along its direction any more.
   ProgramNumber bends() const {
     const NumberVector across = normal_.cross(resistance_.direction.cast<ProgramNumber>());
-    return square(across.dot(motion_)) -
-           ProgramNumber(kStraight * kStraight) *
-               (motion_.dot(motion_) + ProgramNumber(resistance_.scale * resistance_.scale));
+    ProgramNumber sum(0.0);
+    for (const NumberVector& motion : motions_) sum += square(across.dot(motion));
+    return sum - ProgramNumber(kStraight * kStraight) * squares() - below(kStraight);
   }
 
  private:
+  ProgramNumber squares() const {
+    ProgramNumber sum(0.0);
+    for (const NumberVector& motion : motions_) sum += motion.dot(motion);
+    return sum;
+  }
+  ProgramNumber below(double part) const { return square(ProgramNumber(part * resistance_.scale)); }
+
   const Resistance& resistance_;
-  NumberVector motion_, normal_;
+  std::vector<NumberVector> motions_;
+  NumberVector normal_;
 };
 
 /// What a force or torque of the surface has without its part along the normal.
@@ -62,13 +74,14 @@ bool has_no_drift(const Program& law, int offset) {
   return true;
 }
 
-/// The directions of the world in which the body's centre stays where it is.
-std::vector<Vector3> still_directions(const std::vector<SustainedContact>& contacts, const SustainedBody& body) {
+/// The directions of the world in which a point's or a ball's centre stays where it is.
+std::vector<Vector3> still_directions(const std::vector<SustainedContact>& contacts) {
   std::vector<Vector3> normals;
   for (const SustainedContact& contact : contacts) {
-    if (contact.pose || !contact.patch.is_flat()) continue;
+    if (contact.pose || !contact.patch.is_flat() || !contact.corners.front().is_ball()) continue;
     normals.push_back(contact.patch.axis);
-    const bool is_still = contact.mode.slip.is_held() && (body.radius == 0.0 || contact.mode.roll.is_held());
+    const bool is_still =
+        contact.mode.slip.is_held() && (contact.corners.front().rounding == 0.0 || contact.mode.roll.is_held());
     if (is_still)
       for (int i = 0; i < 3; ++i) normals.push_back(Vector3::Unit(i));
   }
@@ -85,12 +98,12 @@ std::optional<ContactMotion> ContactMotion::make(const Program& law, const Susta
   const BodyTerms<ProgramNumber>& terms = parts.terms();
   std::vector<int> nodes{terms.inverse_mass.node(builder)};
   for (int i = 0; i < 9; ++i) nodes.push_back(terms.inverse_inertia(i / 3, i % 3).node(builder));
-  for (const ContactTerms<ProgramNumber>& at : terms.contacts)
+  for (const ContactTerms<ProgramNumber>& at : terms.points)
     for (const NumberVector* each :
          {&at.normal, &at.normal_rate, &at.tangents[0], &at.tangents[1], &at.tangent_rates[0], &at.tangent_rates[1],
           &at.arm, &at.slip, &at.slip_rate, &at.turning, &at.turning_rate})
       push(*each, builder, nodes);
-  return ContactMotion(builder.build(nodes), contacts.size());
+  return ContactMotion(builder.build(nodes), terms.contacts);
 }
 
 BodyTerms<double> ContactMotion::at(double t, const double* q) {
@@ -104,8 +117,9 @@ BodyTerms<double> ContactMotion::at(double t, const double* q) {
     v = Eigen::Map<const Vector3>(next);
     next += 3;
   };
-  for (std::size_t c = 0; c < contacts_; ++c) {
-    ContactTerms<double>& at = terms.contacts.emplace_back();
+  terms.contacts = contacts_;
+  while (next != values.data() + values.size()) {
+    ContactTerms<double>& at = terms.points.emplace_back();
     for (Vector3* each : {&at.normal, &at.normal_rate, &at.tangents[0], &at.tangents[1], &at.tangent_rates[0],
                           &at.tangent_rates[1], &at.arm, &at.slip, &at.slip_rate, &at.turning, &at.turning_rate})
       take(*each);
@@ -129,57 +143,78 @@ std::optional<ContactLaw> make_contact_law(const Program& law, const SustainedBo
   const auto forces = contact_forces<ProgramNumber>(terms, modes, friction, unknowns);
   ContactLaw result{builder.build(parts.rates_with(forces)), {}};
   if (has_no_drift(law, body.offset))
-    for (const Vector3& direction : still_directions(contacts, body))
-      result.law = hold(result.law, body.offset, direction);
+    for (const Vector3& direction : still_directions(contacts)) result.law = hold(result.law, body.offset, direction);
 
-  const auto end = [&](std::size_t contact, ContactEnd kind, const ProgramNumber& value) {
+  const auto end = [&](std::size_t contact, ContactEnd kind, const ProgramNumber& value, int detail = 0) {
     const int node = value.node(builder);
-    result.ends.push_back({static_cast<int>(contact), kind, builder.build(std::span(&node, 1))});
+    result.ends.push_back({static_cast<int>(contact), kind, builder.build(std::span(&node, 1)), detail});
   };
   for (std::size_t c = 0; c < contacts.size(); ++c) {
-    const ContactTerms<ProgramNumber>& at = terms.contacts[c];
+    const ContactPoints& points = terms.contacts[c];
+    const auto point = [&](int i) -> const ContactTerms<ProgramNumber>& {
+      return terms.points[static_cast<std::size_t>(points.points[static_cast<std::size_t>(i)])];
+    };
+    const ContactTerms<ProgramNumber>& at = point(0);
     const ContactMode& mode = modes[c];
-    const ProgramNumber& normal_force = forces[c].normal;
-    end(c, ContactEnd::pull, -normal_force);
-    const auto watch = [&](const Resistance& resistance, const NumberVector& motion, ContactEnd stops,
+    const ContactForce<ProgramNumber>& force = forces[c];
+    const auto watch = [&](const Resistance& resistance, const std::vector<NumberVector>& motions, ContactEnd stops,
                            ContactEnd bends) {
-      const ResistanceEnds ends(resistance, motion, at.normal);
+      const ResistanceEnds ends(resistance, motions, at.normal);
       if (resistance.begins) return end(c, bends, ends.has_begun());
       // a motion whose direction follows it may turn round without a stop
-      end(c, resistance.follows ? bends : stops, ends.turns_round());
+      if (!resistance.follows || points.is_one()) end(c, resistance.follows ? bends : stops, ends.turns_round());
       if (resistance.follows) end(c, stops, ends.dies());
+      // where one of several points stops, its direction is lost
+      for (std::size_t i = 0; resistance.follows && motions.size() > 1 && i < motions.size(); ++i)
+        end(c, ContactEnd::one_stops, ends.one_dies(motions[i]));
       if (!resistance.follows) end(c, bends, ends.bends());
     };
-    const auto limit = [&](ContactEnd starts, const NumberVector& resisting, double coefficient) {
-      end(c, starts, resisting.dot(resisting) - square(ProgramNumber(coefficient) * normal_force));
+    const auto limit = [&](ContactEnd starts, const ProgramNumber& squared, double coefficient) {
+      end(c, starts, squared - square(ProgramNumber(coefficient) * force.normal));
     };
-    if (mode.slip.is_moving()) watch(mode.slip, at.slip, ContactEnd::slip_stops, ContactEnd::slip_bends);
-    if (mode.slip.is_held())
-      limit(ContactEnd::slip_starts, along_surface(forces[c].force, at.normal), friction[c].slip);
+    const auto squared = [](const NumberVector& v) { return v.dot(v); };
+    const std::vector<ProgramNumber> loads = loads_of_sides(points, force.shares);
+    for (std::size_t side = 0; side < loads.size(); ++side)
+      end(c, points.is_one() ? ContactEnd::pull : ContactEnd::tips, -loads[side], static_cast<int>(side));
+    if (mode.slip.is_moving()) {
+      std::vector<NumberVector> slips;
+      for (std::size_t i = 0; i < points.points.size(); ++i) slips.push_back(point(static_cast<int>(i)).slip);
+      watch(mode.slip, slips, ContactEnd::slip_stops, ContactEnd::slip_bends);
+    }
+    if (mode.slip.is_held()) {
+      ProgramNumber resisting = squared(along_surface(force.force, at.normal));
+      if (!points.is_one()) resisting += square(at.normal.dot(force.torque) * ProgramNumber(1.0 / points.spread));
+      limit(ContactEnd::slip_starts, resisting, friction[c].slip);
+    }
     if (mode.roll.is_moving())
-      watch(mode.roll, along_surface(at.turning, at.normal), ContactEnd::roll_stops, ContactEnd::roll_bends);
+      watch(mode.roll, {along_surface(at.turning, at.normal)}, ContactEnd::roll_stops, ContactEnd::roll_bends);
     if (mode.roll.is_held())
-      limit(ContactEnd::roll_starts, along_surface(forces[c].torque, at.normal), friction[c].roll);
+      limit(ContactEnd::roll_starts, squared(along_surface(force.torque, at.normal)), friction[c].roll);
     if (mode.spin.is_moving())
       end(c, ContactEnd::spin_stops, ProgramNumber(-mode.spin.sign) * at.normal.dot(at.turning));
-    if (mode.spin.is_held())
-      end(c, ContactEnd::spin_starts,
-          square(at.normal.dot(forces[c].torque)) - square(ProgramNumber(friction[c].spin) * normal_force));
+    if (mode.spin.is_held()) limit(ContactEnd::spin_starts, square(at.normal.dot(force.torque)), friction[c].spin);
     for (const ProgramNumber& past : parts.past_edges(c)) end(c, ContactEnd::past_edge, past);
+    for (std::size_t i = 0; i < contacts[c].others.size(); ++i) {
+      const SupportCorner& corner = contacts[c].others[i];
+      const ProgramNumber height = parts.height(c, corner);
+      end(c, ContactEnd::touches, -height, static_cast<int>(i));
+      // what hops so low that its flight is lost in the rounding of time does not sink deeper
+      end(c, ContactEnd::touches, -height - ProgramNumber(kDeep * corner.p_B.norm()), static_cast<int>(i));
+    }
   }
   return result;
 }
 
 void add_forces(const SustainedBody& body, const BodyTerms<double>& terms,
                 const std::vector<ContactForce<double>>& forces, const double* q, double* changed) {
-  Vector3 acceleration = Vector3::Zero(), torque = Vector3::Zero();
-  for (std::size_t c = 0; c < forces.size(); ++c) {
-    acceleration += terms.inverse_mass * forces[c].force;
-    torque += terms.contacts[c].arm.cross(forces[c].force) + forces[c].torque;
+  Vector3 acceleration = Vector3::Zero(), moment = Vector3::Zero();
+  for (const ContactForce<double>& each : forces) {
+    acceleration += terms.inverse_mass * each.force;
+    moment += each.moment;
   }
   Eigen::Map<Vector3>(changed + body.offset + 3) += acceleration;
   if (!body.layout || !body.inertia) return;
-  Vector3 turning = terms.inverse_inertia * torque;
+  Vector3 turning = terms.inverse_inertia * moment;
   if (body.layout->frame == Frame::body)
     turning = body.layout->rotation(q + body.rotation_offset).transpose() * turning;
   Eigen::Map<Vector3>(changed + body.rotation_offset + body.layout->size()) += turning;

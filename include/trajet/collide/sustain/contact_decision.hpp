@@ -31,13 +31,15 @@ struct ContactDecision {
   std::vector<ContactMode> modes{};
   std::vector<ContactUnknown> unknowns{};
   std::vector<ContactForce<double>> forces{};
-  int pulling = -1;       ///< of the contacts that would have to pull, the one that pulls most; else -1
+  int pulling = -1;       ///< of the contacts that would have to pull at a side, the one that pulls most; else -1
+  int pulled_side = 0;    ///< of it
   std::string failure{};  ///< why no mode fits
 };
 
 /// Decides which resistances hold: all that do not move, but for those whose limit the forces pass; these begin to move
 /// in the direction in which the motion then accelerates.
+/// `impulses`: decides the impulses that stop the motions instead, N s.
 ContactDecision decide_contacts(const BodyTerms<double>& terms, const std::vector<ContactQuestion>& questions,
-                                std::vector<ContactMode> modes);
+                                std::vector<ContactMode> modes, bool impulses = false);
 
 }  // namespace trajet

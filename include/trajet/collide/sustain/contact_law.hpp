@@ -13,14 +13,25 @@
 
 namespace trajet {
 
-/// A point or a ball in contact, and where its numbers lie in the state of its group.
+/// A part of a body's surface that touches: a corner, which may be spread to an ellipsoid and grown by a radius, in the
+/// body's frame. A ball is its centre, grown; the rim of a disk its centre, spread.
+struct SupportCorner {
+  Vector3 p_B = Vector3::Zero();     ///< m
+  Matrix3 spread = Matrix3::Zero();  ///< E of the ellipsoid {E y : |y| <= 1} around it, m
+  double rounding = 0.0;             ///< m
+
+  bool is_spread() const { return !spread.isZero(0.0); }
+  bool is_ball() const { return p_B.isZero(0.0) && !is_spread(); }
+};
+
+/// A body in contact, and where its numbers lie in the state of its group.
 struct SustainedBody {
   int offset = 0;                             ///< of position and velocity
   int rotation_offset = 0;                    ///< of orientation and angular velocity, if it turns
   std::optional<OrientationLayout> layout{};  ///< none: it does not turn
   std::shared_ptr<const Program> mass{};      ///< kg; none: forces are per mass
   std::optional<Matrix3> inertia{};           ///< kg m^2, body's frame; none: contacts do not turn it
-  double radius = 0.0;                        ///< m
+  Matrix3 R_WB = Matrix3::Identity();         ///< of one that does not turn
 };
 
 /// A contact of it that lasts.
@@ -28,8 +39,10 @@ struct SustainedContact {
   SurfacePatch patch{};  ///< where the obstacle stands at the start
   /// Of an obstacle that is driven: of t, the place of its pivot and its unit quaternion since the start.
   std::shared_ptr<const Program> pose{};
-  Vector3 pivot = Vector3::Zero();  ///< at the start, m
-  bool turns = false;               ///< the obstacle
+  Vector3 pivot = Vector3::Zero();       ///< at the start, m
+  bool turns = false;                    ///< the obstacle
+  std::vector<SupportCorner> corners{};  ///< of the body that touch; several lie on a flat patch
+  std::vector<SupportCorner> others{};   ///< that may come to touch, on a flat patch
   FrictionCoefficients friction{};
   ContactMode mode{};
 };
@@ -39,7 +52,11 @@ struct ContactEndCondition {
   int contact = 0;
   ContactEnd end = ContactEnd::pull;
   Program program{};
+  int detail = 0;  ///< of `tips`: the side of the contact's points; of `touches`: the corner among the others
 };
+
+/// The points of a body's contacts, one behind the other.
+std::vector<ContactPoints> contact_points(const std::vector<SustainedContact>& contacts);
 
 /// How a body moves at its contacts, as its group's law has it without their forces: a program, evaluated at states.
 class ContactMotion {
@@ -50,12 +67,14 @@ class ContactMotion {
   BodyTerms<double> at(double t, const double* q);
 
  private:
-  ContactMotion(Program program, std::size_t contacts)
-      : program_(std::make_shared<const Program>(std::move(program))), evaluate_(*program_), contacts_(contacts) {}
+  ContactMotion(Program program, std::vector<ContactPoints> contacts)
+      : program_(std::make_shared<const Program>(std::move(program))),
+        evaluate_(*program_),
+        contacts_(std::move(contacts)) {}
 
   std::shared_ptr<const Program> program_;  // the evaluator keeps pointers to it
   Evaluator<double> evaluate_;
-  std::size_t contacts_;
+  std::vector<ContactPoints> contacts_;
 };
 
 /// The law of a group with the forces of a body's contacts, and what ends them.

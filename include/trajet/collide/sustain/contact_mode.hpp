@@ -49,6 +49,9 @@ enum class ContactEnd {
   spin_starts,
   slip_bends,  ///< the direction is not constant
   roll_bends,
+  tips,       ///< its points would have to pull on one side: it goes on on the other
+  touches,    ///< another corner comes to the same surface
+  one_stops,  ///< one of several points that slide does so no more
 };
 
 /// The coefficients of a surface: of Coulomb, and of the torques over the normal force, m.

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "trajet/collide/sustain/contact_forces.hpp"
+#include "trajet/geom/convex_core.hpp"
 #include "trajet/geom/shapes.hpp"
 #include "trajet/geom/surface_patch.hpp"
 #include "trajet/law/program.hpp"
@@ -21,8 +23,11 @@ struct RestingContact {
       normal;  ///< the contact would have to pull where release . a > 0, a the acceleration without contacts
   /// Whether it is on a flat face at rest, without friction: all it does is to hold the body back along its normal.
   bool is_plain = true;
-  SurfacePatch patch{};                    ///< on which the body stays, where the obstacle stands at the start
-  ContactMode mode{};                      ///< how the contact lasts
+  SurfacePatch patch{};  ///< on which the body stays, where the obstacle stands at the start
+  ContactMode mode{};    ///< how the contact lasts
+  /// Of a solid that is no point or ball: its corners, and which of them touch.
+  std::shared_ptr<const ConvexCore> core{};
+  std::vector<int> corners{};
   std::vector<ContactUnknown> unknowns{};  ///< of its forces; `contact` counts the contacts of the body
 };
 
