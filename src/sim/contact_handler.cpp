@@ -251,7 +251,8 @@ void ContactHandler::bounce_off(int index, Pair pair, Impact impact) {
   if (is_again && is_low) return stay(index, pair, impact, instant);
   const double gained =
       bounce_solid(run_.world(), pair, surface, restitution, mass_of(body, t, instant.q), instant, impact);
-  run_.recorder().impact(impact);
+  // what lies there has not hit
+  if (is_hit(pair.contact) && before.speed < 0.0) run_.recorder().impact(impact);
   if (gained > 0.0) run_.recorder().warn_of_gain(impact, gained);
   warn_of_hidden_ties(run_.world(), run_.encounters(), pair, impact, moving, run_.recorder());
   const NormalMotion after = normal_motion(run_.world(), pair, surface, instant.q, instant.rate());

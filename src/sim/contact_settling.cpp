@@ -256,6 +256,11 @@ void ContactSettling::stand_still() {
     const bool is_still = contact.mode.slip.is_held() && !contact.core &&
                           (contact.mode.roll.is_held() || !body().rotation || bounding_radius(body().solid) == 0.0);
     if (is_still && !is_driven) instant_.q.segment<3>(body().offset + 3).setZero();
+    // on a face nothing of a solid moves
+    if (contact.mode.slip.is_held() && contact.corners.size() > 2 && !is_driven) {
+      instant_.q.segment<3>(body().offset + 3).setZero();
+      instant_.q.segment<3>(body().slice().angular_velocity_index()).setZero();
+    }
   }
 }
 

@@ -53,8 +53,8 @@ TEST(Run, WritesSummaryReportAndSamples) {
 
   const Json report = Json::parse(read_text(folder.file("r.json")));
   EXPECT_EQ(keys(report), (std::vector<std::string>{"trajet", "scene", "title", "method", "status", "start_time",
-                                                    "end_time", "parameters", "impacts", "events", "verdict", "final",
-                                                    "states", "warnings", "statistics"}));
+                                                    "end_time", "parameters", "impacts", "events", "contacts",
+                                                    "verdict", "final", "states", "warnings", "statistics"}));
   EXPECT_EQ(report["status"], "stopped");
   EXPECT_EQ(keys(report["parameters"]), (std::vector<std::string>{"theta", "v0", "g"}));
   ASSERT_EQ(report["impacts"].size(), 1u);

@@ -103,10 +103,12 @@ const BadScene kBadScenes[] = {
     {"[[body]]\nname = \"b\"\nshape = \"cone\"\nradius = 1", "3:1", "lacks the key 'height'"},
     {"[[body]]\nname = \"b\"\nshape = \"compound\"", "3:1", "lacks the key 'parts'"},
     {"[[body]]\nname = \"b\"\nshape = \"ellipsoid\"\nradii = [1, 2]", "6:9", "got 2 elements"},
-    {"[[obstacle]]\nname = \"o\"\nshape = \"plane\"\npoint = [0,0,0]\nnormal = [0,0,1]\nfriction = -1", "8:12",
-     "friction of obstacle 'o'"},
-    {"[[obstacle]]\nname = \"o\"\nshape = \"plane\"\npoint = [0,0,0]\nnormal = [0,0,1]\nrolling_friction = 1", "8:20",
-     "length"},
+    {"[[body]]\nname = \"b\"\n[[obstacle]]\nname = \"o\"\nshape = \"plane\"\npoint = [0,0,0]\nnormal = "
+     "[0,0,1]\nfriction = -1",
+     "10:12", "friction of obstacle 'o'"},
+    {"[[body]]\nname = \"b\"\n[[obstacle]]\nname = \"o\"\nshape = \"plane\"\npoint = [0,0,0]\nnormal = "
+     "[0,0,1]\nrolling_friction = \"1 s\"",
+     "10:20", "length"},
     {"[[obstacle]]\nname = \"o\"\nshape = \"plane\"\npoint = [0,0,0]\nnormal = [0,0,1]\nimpact = \"newtn\"", "8:10",
      "did you mean 'newton'?"},
     {"[[obstacle]]\nname=\"o\"\nshape=\"sphere\"\ncenter=[0,0,0]\nradius=1\non_hit = \"stick\"", "8:10",
