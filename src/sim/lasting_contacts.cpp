@@ -313,7 +313,9 @@ std::optional<RestingContact> LastingContacts::next_patch(const Instant& instant
   const std::optional<FrameMotion> frame = encounters_.frame(left.obstacle, instant.time());
   Vector3 velocity = instant.q.segment<3>(left.offset + 3);
   if (frame) velocity -= frame->velocity_at(position);
-  const Vector3 ahead = position + (ahead_of(position, velocity) - position) * (radius / (radius + position.norm()));
+  // so far ahead that another part of the surface shows itself by its normal
+  constexpr double kAhead = 1e-6;
+  const Vector3 ahead = position + kAhead * radius * velocity.stableNormalized();
   const Vector3 seen = frame ? frame->to_start(ahead) : ahead;
   const Shape& shape = obstacle(left.obstacle).shape;
   const Vector3 foot = closest_point_of(shape, seen);

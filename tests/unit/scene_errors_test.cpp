@@ -108,7 +108,7 @@ const BadScene kBadScenes[] = {
      "10:12", "friction of obstacle 'o'"},
     {"[[body]]\nname = \"b\"\n[[obstacle]]\nname = \"o\"\nshape = \"plane\"\npoint = [0,0,0]\nnormal = "
      "[0,0,1]\nrolling_friction = \"1 s\"",
-     "10:20", "length"},
+     "10:23", "length"},
     {"[[obstacle]]\nname = \"o\"\nshape = \"plane\"\npoint = [0,0,0]\nnormal = [0,0,1]\nimpact = \"newtn\"", "8:10",
      "did you mean 'newton'?"},
     {"[[obstacle]]\nname=\"o\"\nshape=\"sphere\"\ncenter=[0,0,0]\nradius=1\non_hit = \"stick\"", "8:10",

@@ -10,7 +10,15 @@ export interface Moment {
   event?: SceneEvent;
 }
 
-const kVerbs = { hit: "hits", graze: "grazes", rest: "rests on", leave: "leaves" };
+const kVerbs = {
+  hit: "hits",
+  graze: "grazes",
+  rest: "rests on",
+  slide: "slides on",
+  roll: "rolls on",
+  stick: "sticks to",
+  leave: "leaves",
+};
 
 /** All impacts and events of a run, in the order of time. */
 export function momentsOf({ impacts, events }: Report): Moment[] {

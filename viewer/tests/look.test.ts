@@ -72,6 +72,8 @@ describe("what happens in a run", () => {
 
   it("is told: who, whom, how fast, at which angle", () => {
     expect(action(impact(0, { kind: "rest" }))).toBe("ball rests on floor");
+    expect(action(impact(0, { kind: "slide" }))).toBe("ball slides on floor");
+    expect(action(impact(0, { kind: "roll" }))).toBe("ball rolls on floor");
     expect(speeds(impact(0))).toBe("5 → 3.606");
     expect(impactAngle(impact(0))).toBeCloseTo(53.13, 2);
     expect(impactAngle(impact(0, { velocity_before: [0, 0, 0] }))).toBeNull();
