@@ -77,7 +77,8 @@ void require_no_conflict(const BodyDefinition& definition) {
     throw InputError(d.force_point->where(), "body '" + d.name + "' has a `force_point` but no `force`");
 }
 
-/// Whether an impact can make the body turn: it has extent, a constant mass, and an inertia; only friction turns a ball.
+/// Whether an impact can make the body turn: it has extent, a constant mass, and an inertia; only friction turns a
+/// ball.
 bool is_turned_by_impacts(const BodyDefinition& d, const Solid& solid, const SceneNumbers& numbers, Bounces bounces) {
   if (bounces == Bounces::nowhere || bounding_radius(solid) == 0.0) return false;
   if (is_round(solid) && bounces == Bounces::smoothly) return false;
@@ -92,8 +93,7 @@ std::optional<World::Rotation> rotation(const BodyDefinition& d, const Solid& so
                                                    &d.torque_body, &d.force_point};
   const auto law = ranges::find_if(laws, [](const auto* each) { return each->has_value(); });
   const bool has_law = law != std::end(laws);
-  if (!has_law && !d.angular_velocity && !d.angular_velocity_body &&
-      !is_turned_by_impacts(d, solid, numbers, bounces))
+  if (!has_law && !d.angular_velocity && !d.angular_velocity_body && !is_turned_by_impacts(d, solid, numbers, bounces))
     return std::nullopt;
 
   World::Rotation result{.layout = {method.orientation}, .is_free = !has_law};

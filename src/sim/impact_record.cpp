@@ -71,9 +71,9 @@ Impact describe(const World& world, const RestingContact& contact, ImpactKind ki
   impact.elapsed = time;
   impact.kind = kind;
   impact.normal = contact.normal;
-  impact.point = contact.core ? contact.point
-                              : Vector3(impact.position -
-                                        bounding_radius(body_at(world, contact.body).solid) * contact.normal);
+  impact.point = contact.core
+                     ? contact.point
+                     : Vector3(impact.position - bounding_radius(body_at(world, contact.body).solid) * contact.normal);
   return impact;
 }
 

@@ -31,8 +31,8 @@ struct FrictionalImpact {
 /// the direction s, while the relative velocity of the point follows, du = K dJ, K the inverse inertia of both there
 /// [Stronge2000, ch. 4]. Where slip has stopped, J goes on in the direction d = n + x, |x| <= mu, of the least d.Kd:
 /// that is without slip where friction suffices, else with slip in the only direction that agrees with friction.
-/// Compression ends where the normal speed is zero, restitution as `friction.measure` says. A tangential restitution adds
-/// an impulse that turns slip round without a change of the normal speed, as far as friction and energy let it; a
+/// Compression ends where the normal speed is zero, restitution as `friction.measure` says. A tangential restitution
+/// adds an impulse that turns slip round without a change of the normal speed, as far as friction and energy let it; a
 /// negative one is the part of friction that it leaves.
 ///
 /// The energy T never grows by Stronge's law nor Poisson's. Stronge: the normal impulse does the work -(1 - e^2) times
