@@ -152,9 +152,10 @@ TEST(Shapes, ABodyRestsOnTheFlatEndOfACylinder) {
       scene("10.0", kBall + kFalls + "position = [0, 0, 2]\nvelocity = [0.1, 0, 0]",
             obstacle("shape = \"cylinder\"\ncenter = [0,0,0]\nradius = 0.5\nheight = 2") + "restitution = 0\n"));
   const auto leaves = impacts_of(result, ImpactKind::leave);
-  // it slides off the end, too slowly to fly over the rim: that is not followed
-  EXPECT_EQ(result.status, RunStatus::failed) << leaves.size();
-  EXPECT_EQ(impacts_of(result, ImpactKind::rest).size(), 1u);
+  // it slides off the end, round the rim, and leaves that
+  EXPECT_EQ(result.status, RunStatus::finished) << result.failure;
+  EXPECT_GE(impacts_of(result, ImpactKind::rest).size(), 1u);
+  EXPECT_EQ(leaves.size(), 1u);
 }
 
 // Rays parallel to the axis of a paraboloid z = (x^2 + y^2) / (4 f) meet in its focus.
