@@ -85,7 +85,7 @@ void ContactSettling::apply(const BodyTerms<double>& terms, const std::vector<Co
   for (const ContactQuestion& question : questions) friction.push_back(question.friction);
   const SustainedBody sustained = sustained_body(world_, body_);
   const auto add_impulses = [&](const BodyTerms<double>& of, double* changed) {
-    auto impulses = contact_forces<double>(of, modes, friction, unknowns, true);
+    auto impulses = contact_forces<double>(terms, modes, friction, unknowns, &of);
     for (std::size_t c = 0; restitution_ > 0.0 && c < impulses.size(); ++c)
       for (std::size_t i = 0; i < impulses[c].shares.size(); ++i) {
         const ContactTerms<double>& at = of.points[static_cast<std::size_t>(of.contacts[c].points[i])];

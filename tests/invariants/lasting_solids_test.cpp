@@ -149,9 +149,12 @@ TEST(LastingSolids, ThrownDiceComeToRestOrSayWhyNot) {
     const BodyState& die = test::final_of(result, "die");
     EXPECT_NEAR(die.position.z(), 0.008, 1e-9);
     EXPECT_NEAR(die.velocity.norm(), 0.0, 1e-9);
+    // of an error that was carried through slides whose direction turns
+    ASSERT_TRUE(die.position_error_bound.has_value());
+    EXPECT_TRUE(std::isfinite(*die.position_error_bound));
   }
-  // measured: 12 of 12 on other starts, 38 of 40 over many
-  EXPECT_GE(at_rest, kThrows - 3);
+  // measured: 12 of these 12; of 80 random throws 70
+  EXPECT_GE(at_rest, kThrows - 3) << at_rest;
 }
 
 }  // namespace

@@ -89,7 +89,7 @@ class Decision {
 
   void solve() {
     unknowns_ = independent_unknowns(terms_, modes_, friction_);
-    forces_ = contact_forces<double>(terms_, modes_, friction_, unknowns_, impulses_);
+    forces_ = contact_forces<double>(terms_, modes_, friction_, unknowns_, impulses_ ? &terms_ : nullptr);
   }
 
   /// Whether a push along the normal, with the friction that comes with it, does not push.

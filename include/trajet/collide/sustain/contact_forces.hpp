@@ -291,11 +291,14 @@ std::vector<ContactRates> rates_by(const BodyTerms<double>& terms, const std::ve
 /// The forces with which contacts last: those that keep at zero what does not move, with the friction of what does.
 ///
 /// \param unknowns  independent, in the order of elimination
-/// \param impulses  what keeps the velocities at zero that are not, N s, instead of the accelerations, N
+/// \param stopped   if not null: impulses, N s, instead, that bring to zero what these have of slip and turning;
+/// friction
+///                  acts along the motions of `terms`
 template <class T>
 std::vector<ContactForce<T>> contact_forces(const BodyTerms<T>& terms, const std::vector<ContactMode>& modes,
                                             const std::vector<FrictionCoefficients>& friction,
-                                            const std::vector<ContactUnknown>& unknowns, bool impulses = false) {
+                                            const std::vector<ContactUnknown>& unknowns,
+                                            const BodyTerms<T>* stopped = nullptr) {
   const detail::ContactSystem<T> system(terms, modes, friction);
   const auto n = static_cast<Eigen::Index>(unknowns.size());
   std::vector<detail::Wrench<T>> wrenches;
@@ -304,7 +307,8 @@ std::vector<ContactForce<T>> contact_forces(const BodyTerms<T>& terms, const std
   for (Eigen::Index i = 0; i < n; ++i) {
     const ContactUnknown& row = unknowns[static_cast<std::size_t>(i)];
     for (Eigen::Index j = 0; j < n; ++j) a(i, j) = system.response(row, wrenches[static_cast<std::size_t>(j)]);
-    a(i, n) = -(impulses ? system.value(row) : system.free_rate(row));
+    a(i, n) =
+        -(stopped != nullptr ? detail::ContactSystem<T>(*stopped, modes, friction).value(row) : system.free_rate(row));
   }
   for (Eigen::Index k = 0; k < n; ++k)
     for (Eigen::Index i = k + 1; i < n; ++i) {
