@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <iterator>
 #include <utility>
 
@@ -148,12 +149,26 @@ void Course::pass_error(double t) {
   if (branched_ != nullptr) error_.settle();
 }
 
+double Course::turning_limit(double limit) const {
+  // forces at corners that turn are enclosed well over so small an angle only
+  constexpr double kTurn = 0.1;  // rad
+  const double t = stepper_->time();
+  for (const World::Rotation* rotation : held_law_.turning_corners()) {
+    const int w = rotation->offset + rotation->layout.size();
+    const double speed = end_state_.segment<3>(w).norm(), faster = rate(t, end_state_).segment<3>(w).norm();
+    // speed dt + faster dt^2 / 2 = kTurn
+    const double longest = 2.0 * kTurn / (speed + std::sqrt(speed * speed + 2.0 * kTurn * faster));
+    if (longest < std::abs(limit - t)) limit = t + world_.direction() * longest;
+  }
+  return limit;
+}
+
 StepStatus Course::advance() {
   if (segment_.duration() != 0.0) pass_error(segment_.t1());
   if (rest_of_step_.empty()) {
     const bool has_switch = !switches_.empty() && piece_.is_switch;
     if (has_switch && stepper_->time() == piece_.end) pass_switch();
-    const double limit = !switches_.empty() && piece_.is_switch ? piece_.end : world_.duration;
+    const double limit = turning_limit(!switches_.empty() && piece_.is_switch ? piece_.end : world_.duration);
     if (const StepStatus status = stepper_->advance(limit); status != StepStatus::ok) return status;
     if (branched_ != nullptr)
       if (const auto jump = branched_->take_switch()) error_.jump(*jump);

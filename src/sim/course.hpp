@@ -107,6 +107,8 @@ class Course {
   bool keeps_tolerance() const;
   /// `instant`: at which the course goes on; null at the start.
   void begin(double t, const Eigen::VectorXd& q, const Instant* instant);
+  /// How far a step may go at most up to that time where solids stay on corners.
+  double turning_limit(double limit) const;
   /// From time t on, where the law may switch: it stays on its branches up to the next switch.
   void enter_piece(double t);
   /// The step has ended at a switch of the law: goes on behind it.

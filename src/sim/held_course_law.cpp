@@ -56,6 +56,15 @@ bool HeldCourseLaw::take(const std::vector<RestingContact>& contacts, std::vecto
   return true;
 }
 
+std::vector<const World::Rotation*> HeldCourseLaw::turning_corners() const {
+  std::vector<const World::Rotation*> turning;
+  for (const RestingContact& contact : contacts_) {
+    const auto& rotation = world_.bodies[static_cast<std::size_t>(contact.body)].rotation;
+    if (contact.core && rotation) turning.push_back(&*rotation);
+  }
+  return turning;
+}
+
 std::vector<const World::Rotation*> HeldCourseLaw::pushed_rotations() const {
   std::vector<const World::Rotation*> pushed;
   for (const RestingContact& contact : contacts_) {

@@ -24,6 +24,8 @@ class HeldCourseLaw {
   /// From now on it is these that hold. Whether they are others than before.
   bool take(const std::vector<RestingContact>& contacts, std::vector<EventHold> holds);
   bool is_held(int event) const;
+  /// The rotations of solids that stay on corners.
+  std::vector<const World::Rotation*> turning_corners() const;
   /// Those that the forces of contacts change.
   std::vector<const World::Rotation*> pushed_rotations() const;
   /// What ends the contacts that are not plain: their `contact` counts `contacts`.
