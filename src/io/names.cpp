@@ -28,8 +28,6 @@ std::string_view name(ImpactKind kind) {
       return "slide";
     case ImpactKind::roll:
       return "roll";
-    case ImpactKind::stick:
-      return "stick";
     case ImpactKind::leave:
       return "leave";
   }

@@ -199,12 +199,7 @@ void ContactHandler::bounce(int index, Pair pair, Impact impact) {
     return run_.fail(t, describe_lasting(pair.id.body, failure));
   if (!rest(instant, pair, impact, restitution, !is_hit)) return;
   const bool stops = settle_other_contacts(run_.world(), run_.encounters(), pair, impact, instant, run_.recorder());
-  ContactMemory memory = rebounded(pair.contact.memory);
-  memory.contact_time = t;
-  instant.memories.insert(instant.memories.begin(), {pair.id, memory});
-  run_.go_on(index, instant);
-  run_.recorder().sample(t, pair.id.body, SamplePhase::after);
-  run_.lasting_contacts().record_until(t);
+  go_on_from(index, pair, instant);
   if (stops) return run_.stop();
   run_.advance(index);
 }
@@ -281,13 +276,17 @@ void ContactHandler::stay(int index, const Pair& pair, const Impact& impact, Ins
   if (!body.inertia) return fail("and what becomes of that needs its inertia: give it a `mass` or a `density`");
   if (const std::string failure = run_.lasting_contacts().begin(instant, *contact, impact, t); !failure.empty())
     return fail(failure);
+  go_on_from(index, pair, instant);
+  run_.advance(index);
+}
+
+void ContactHandler::go_on_from(int index, const Pair& pair, Instant& instant) {
   ContactMemory memory = rebounded(pair.contact.memory);
-  memory.contact_time = t;
+  memory.contact_time = instant.time();
   instant.memories.insert(instant.memories.begin(), {pair.id, memory});
   run_.go_on(index, instant);
-  run_.recorder().sample(t, pair.id.body, SamplePhase::after);
-  run_.lasting_contacts().record_until(t);
-  run_.advance(index);
+  run_.recorder().sample(instant.time(), pair.id.body, SamplePhase::after);
+  run_.lasting_contacts().record_until(instant.time());
 }
 
 bool ContactHandler::rest(Instant& instant, const Pair& pair, const Impact& impact, double restitution,

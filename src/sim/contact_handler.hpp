@@ -35,6 +35,8 @@ class ContactHandler {
   void bounce_off(int course, Pair pair, Impact impact);
   /// A solid that does not fly any more stays in contact.
   void stay(int course, const Pair& pair, const Impact& impact, Instant& instant);
+  /// The course goes on as the instant says, from the contact, on the side that the body came from.
+  void go_on_from(int course, const Pair& pair, Instant& instant);
   /// Begins a rest where the body, after its impact, will not fly any more; false if it cannot be followed.
   bool rest(Instant& instant, const Pair& pair, const Impact& impact, double restitution, bool is_hidden);
 

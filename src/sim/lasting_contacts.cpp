@@ -7,6 +7,7 @@
 #include "body_state.hpp"
 #include "impact_record.hpp"
 #include "impact_sides.hpp"
+#include "round_contact.hpp"
 #include "solid_contact.hpp"
 #include "sustained.hpp"
 #include "trajet/collide/sustain/rest.hpp"
@@ -24,12 +25,6 @@ constexpr double kStep = 1e-12;
 /// Of a velocity, a part so small is none: far above rounding.
 constexpr double kNone = 1e-12;
 
-/// A point of a face a little ahead of where a body is: at an edge, in the face into which it moves.
-Vector3 ahead_of(const Vector3& point, const Vector3& velocity) {
-  constexpr double kAhead = 1e-9;  // of the size of the coordinates
-  return point + kAhead * point.norm() * velocity.stableNormalized();
-}
-
 Vector3 closest_point_of(const Shape& shape, const Vector3& p) {
   return std::visit([&](const auto& s) { return closest_point(s, p); }, shape);
 }
@@ -38,24 +33,9 @@ Vector3 closest_point_of(const Shape& shape, const Vector3& p) {
 
 std::optional<RestingContact> LastingContacts::contact_at(const Instant& instant, PairId id, const Vector3& point,
                                                           const Vector3& normal) const {
-  const int offset = body(id.body).offset;
-  if (!is_round(body(id.body).solid))
-    return solid_contact(world_, id, encounters_.frame(id.obstacle, instant.time()), point, normal, instant.q);
-  const Vector3 position = instant.q.segment<3>(offset);
-  const Vector3 velocity = instant.q.segment<3>(offset + 3);
-  const Vector3 place = ahead_of(point, velocity - velocity.dot(normal) * normal);
   const std::optional<FrameMotion> frame = encounters_.frame(id.obstacle, instant.time());
-  const auto seen = [&](const Vector3& p) { return frame ? frame->to_start(p) : p; };
-  const Vector3 seen_normal = frame ? Vector3(frame->R.transpose() * normal) : normal;
-  // at an edge, a flat face is that into which it moves
-  const Shape& shape = obstacle(id.obstacle).shape;
-  std::optional<SurfacePatch> patch = patch_at(shape, seen(place), seen_normal, seen(position));
-  if (!patch) patch = patch_at(shape, seen(point), seen_normal, seen(position));
-  if (!patch) return std::nullopt;
-  RestingContact contact{id.body, id.obstacle, offset, normal, place, normal};
-  contact.is_plain = is_plain_contact(world_, id.body, id.obstacle, *patch);
-  contact.patch = *patch;
-  return contact;
+  return is_round(body(id.body).solid) ? round_contact(world_, id, frame, point, normal, instant.q)
+                                       : solid_contact(world_, id, frame, point, normal, instant.q);
 }
 
 double LastingContacts::pull_on(const Instant& instant, const RestingContact& contact) const {
@@ -307,29 +287,9 @@ bool LastingContacts::rest_on_continuation(Instant& instant, const RestingContac
 }
 
 std::optional<RestingContact> LastingContacts::next_patch(const Instant& instant, const RestingContact& left) const {
-  const double radius = bounding_radius(body(left.body).solid);
-  if (radius == 0.0) return std::nullopt;
-  const Vector3 position = instant.q.segment<3>(left.offset);
-  const std::optional<FrameMotion> frame = encounters_.frame(left.obstacle, instant.time());
-  Vector3 velocity = instant.q.segment<3>(left.offset + 3);
-  if (frame) velocity -= frame->velocity_at(position);
-  // so far ahead that another part of the surface shows itself by its normal
-  constexpr double kAhead = 1e-6;
-  const Vector3 ahead = position + kAhead * radius * velocity.stableNormalized();
-  const Vector3 seen = frame ? frame->to_start(ahead) : ahead;
-  const Shape& shape = obstacle(left.obstacle).shape;
-  const Vector3 foot = closest_point_of(shape, seen);
-  const Vector3 normal = (seen - foot).normalized() * left.patch.side;
-  constexpr double kTouch = 1e-6;
-  if (std::abs((seen - foot).norm() - radius) > kTouch * radius) return std::nullopt;
-  const std::optional<SurfacePatch> patch = patch_at(shape, foot, normal, seen);
-  if (!patch || patch->kind == left.patch.kind) return std::nullopt;
-  RestingContact next = left;
-  next.patch = *patch;
-  next.is_plain = is_plain_contact(world_, left.body, left.obstacle, *patch);
-  next.normal = frame ? Vector3(frame->R * normal) : normal;
-  next.point = frame ? frame->from_start(foot) : foot;
-  return next;
+  return is_round(body(left.body).solid)
+             ? next_round_contact(world_, left, encounters_.frame(left.obstacle, instant.time()), instant.q)
+             : std::nullopt;
 }
 
 std::string LastingContacts::touch(Instant& instant, int index, double time_error_bound) {
@@ -348,10 +308,14 @@ std::string LastingContacts::touch(Instant& instant, int index, double time_erro
   }
   const double tolerance = encounters_.pair(id).memory.tolerance;
   const bool is_low = is_below_flight(speed, pull, tolerance);
-  const double restitution = is_low ? 0.0 : world_.surface(held, id.obstacle).restitution.at(speed);
+  const Surface& surface = world_.surface(held, id.obstacle);
+  const double restitution = is_low ? 0.0 : surface.restitution.at(speed);
+  if (!(restitution >= 0.0 && restitution <= 1.0))
+    return describe_impossible_restitution("obstacle '" + obstacle(id.obstacle).name + "'", surface, restitution,
+                                           speed);
   Impact impact = describe(world_, contact, ImpactKind::hit, instant.time(), before);
   impact.time_error_bound = time_error_bound;
-  ContactSettling settling(world_, encounters_, instant, held, std::clamp(restitution, 0.0, 1.0));
+  ContactSettling settling(world_, encounters_, instant, held, restitution);
   std::vector<RestingContact> left;
   const std::string failure = settling.settle({}, [&](int released) {
     left.push_back(instant.contacts[static_cast<std::size_t>(released)]);

@@ -16,7 +16,6 @@ const kVerbs = {
   rest: "rests on",
   slide: "slides on",
   roll: "rolls on",
-  stick: "sticks to",
   leave: "leaves",
 };
 

@@ -24,7 +24,6 @@ enum class ImpactKind {
   rest,   ///< bouncing has ended: the body stays in contact
   slide,  ///< it stays in contact and slides, against friction
   roll,   ///< it stays in contact and rolls without slip
-  stick,  ///< it is held where it hit
   leave,  ///< contact ends
 };
 
@@ -34,7 +33,7 @@ struct ContactSpan {
   std::optional<double> to{};  ///< none: it lasts at the end of the run
   std::string body;
   std::string with;                    ///< an obstacle
-  ImpactKind mode = ImpactKind::rest;  ///< rest, slide, roll or stick
+  ImpactKind mode = ImpactKind::rest;  ///< rest, slide or roll
 };
 
 /// The motion of the other body of an impact of two. World frame, SI units.
@@ -63,7 +62,6 @@ struct Impact {
   double time_error_bound = 0.0;             ///< s
   std::optional<TouchedFeatures> touched{};  ///< of a hit or a graze: what touched; `point` is in the middle
   std::optional<ImpactPartner> partner{};    ///< where a body was met
-  std::optional<int> group{};                ///< one number for the impacts that were resolved together
 };
 
 /// A `when` crossed zero, or a law that switches at a zero of the state `sticks` there or `slips` off it.
