@@ -5,7 +5,7 @@ set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/trajet)
 
 set(libraries trajet)
 if(TRAJET_BUILD_IO)
-  list(APPEND libraries trajet_io trajet_viz)
+  list(APPEND libraries trajet_ensemble trajet_io trajet_viz)
 endif()
 install(TARGETS ${libraries} EXPORT trajetTargets)
 install(EXPORT trajetTargets NAMESPACE trajet:: DESTINATION ${package_folder})

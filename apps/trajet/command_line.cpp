@@ -50,14 +50,16 @@ void add_file(CLI::App& command, const char* name, std::string& file, const char
   command.add_option(name, file, description)->type_name("FILE");
 }
 
-void add_scene_options(CLI::App& command, RunArguments& arguments) {
-  command.add_option("SCENE", arguments.scene, "scene file (TOML), - for standard input, or a built-in scene's name")
+void add_repeatable(CLI::App& command, const char* name, std::vector<std::string>& texts, const char* kind,
+                    const char* description) {
+  command.add_option(name, texts, description)->type_name(kind)->allow_extra_args(false);
+}
+
+void add_scene_options(CLI::App& command, std::string& scene, SceneOverrides& overrides, bool& quiet) {
+  command.add_option("SCENE", scene, "scene file (TOML), - for standard input, or a built-in scene's name")
       ->required();
-  SceneOverrides& overrides = arguments.overrides;
-  command
-      .add_option("--set", overrides.parameters, "replace a parameter or a key (ball.velocity), NAME=VALUE; repeatable")
-      ->type_name("NAME=VALUE")
-      ->allow_extra_args(false);
+  add_repeatable(command, "--set", overrides.parameters, "NAME=VALUE",
+                 "replace a parameter or a key (ball.velocity); repeatable");
   add_word(command, "--method", overrides.method, "METHOD", "integration method, see 'trajet methods'");
   add_word(command, "--orientation", overrides.orientation, "WAY",
            "way of carrying orientations, see 'trajet methods'");
@@ -66,7 +68,11 @@ void add_scene_options(CLI::App& command, RunArguments& arguments) {
   add_word(command, "--rtol", overrides.rtol, "X", "relative tolerance");
   add_word(command, "--atol", overrides.atol, "X", "absolute tolerance");
   add_word(command, "--end", overrides.end, "T", "end time, \"5 s\"");
-  command.add_flag("--quiet", arguments.quiet, "no summary");
+  command.add_flag("--quiet", quiet, "no summary");
+}
+
+void add_scene_options(CLI::App& command, RunArguments& arguments) {
+  add_scene_options(command, arguments.scene, arguments.overrides, arguments.quiet);
 }
 
 void add_report_options(CLI::App& command, RunArguments& arguments) {
@@ -117,6 +123,7 @@ CommandLine::CommandLine()
   add_scene_options(
       add_command("check", "validate a scene without running it", [this] { return check_command(check_); }), check_);
   add_compare();
+  add_sweep();
   add_lists();
 }
 
@@ -161,6 +168,36 @@ void CommandLine::add_compare() {
   add_word(command, "--show", compare_.show, "NAME", "what --plot draws against time: ball.z, ball.vx or a state");
   add_word(command, "--reference", compare_.reference, "REFERENCE",
            "what to compare with: exact (the scene's [exact]) or a method");
+}
+
+void CommandLine::add_sweep() {
+  CLI::App& command = add_command("sweep", "compute many motions: grids and samples of parameters",
+                                  [this] { return sweep_command(sweep_); });
+  add_scene_options(command, sweep_.scene, sweep_.overrides, sweep_.quiet);
+  add_repeatable(command, "--vary", sweep_.vary, "NAME=LOW:HIGH:COUNT", "a grid of a parameter or a key; repeatable");
+  add_repeatable(command, "--sample", sweep_.sample, "NAME=normal(MEAN,SD)",
+                 "random values, also uniform(LOW,HIGH), lognormal(MEAN,SD), truncated(MEAN,SD,LOW,HIGH); repeatable");
+  add_repeatable(command, "--correlate", sweep_.correlate, "NAME,NAME=R", "correlation of two samples; repeatable");
+  add_word(command, "--count", sweep_.count, "N", "number of samples, default: 1000").check(positive_number());
+  add_word(command, "--seed", sweep_.seed, "S", "seed of the samples, default: 0");
+  add_word(command, "--design", sweep_.design, "DESIGN", "of samples: random, lhs or sobol");
+  add_word(command, "--report", sweep_.report, "LIST", "what to report: t, ball.x, hit, impact(1).t, max(ball.z), ...");
+  add_file(command, "--out", sweep_.out, "write the table there as CSV, - for standard output");
+  add_file(command, "--summary", sweep_.summary, "write what it comes to there as JSON, - for standard output");
+  add_word(command, "--threads", sweep_.threads, "N", "default: as many as the machine has").check(positive_number());
+  add_word(command, "--until", sweep_.until, "COND", "end when the share is known so well: \"ci(hit == 'target') < 0.1%\"");
+  command.add_flag("--resume", sweep_.resume, "go on with the table of a sweep that was ended");
+  add_word(command, "--shard", sweep_.shard, "I/N", "compute part I of N, I from 1; 'trajet merge' joins them");
+  add_word(command, "--only", sweep_.only, "INDEX", "run that one motion, with the options of 'trajet run'");
+  add_file(command, "--json", sweep_.json, "with --only: write its report there");
+  add_file(command, "--csv", sweep_.csv, "with --only: write its samples there");
+  add_file(command, "--html", sweep_.html, "with --only: write its page there");
+  add_file(command, "--glb", sweep_.glb, "with --only: write its animation there");
+  add_file(command, "--plot", sweep_.plot, "draw a figure there, as SVG, PNG or PDF by the end of the name");
+  CLI::App& merge =
+      add_command("merge", "join the tables of the shards of a sweep", [this] { return merge_command(merge_); });
+  merge.add_option("FILE", merge_.files, "tables that 'trajet sweep --shard' has written")->required();
+  merge.add_option("--out", merge_.out, "write the whole table there, - for standard output")->type_name("FILE")->required();
 }
 
 void CommandLine::add_lists() {

@@ -30,6 +30,7 @@ class CommandLine {
   void add_run();
   void add_view();
   void add_compare();
+  void add_sweep();
   void add_lists();
   /// Throws InputError with the nearest command.
   void check_name(const std::string& word) const;
@@ -42,6 +43,8 @@ class CommandLine {
   RunArguments check_;
   ViewArguments view_;
   CompareArguments compare_;
+  SweepArguments sweep_;
+  MergeArguments merge_;
   std::string example_;
   std::string shell_;
 };

@@ -1,9 +1,12 @@
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
+#include "sweep_arguments.hpp"
 #include "trajet/io/scene_overrides.hpp"
+#include "trajet/scene/scene.hpp"
 #include "trajet/sim/run_result.hpp"
 
 namespace CLI {
@@ -59,6 +62,10 @@ struct ViewArguments : RunArguments {
 
 // One function per command. They throw InputError and FileError; `main` turns these into exit codes.
 int run_command(const RunArguments& arguments);
+/// The same for a scene that comes from elsewhere than the arguments' names.
+int run_scene(const RunArguments& arguments, const std::function<Scene()>& read);
+int sweep_command(const SweepArguments& arguments);
+int merge_command(const MergeArguments& arguments);
 int view_command(const ViewArguments& arguments);
 int check_command(const RunArguments& arguments);
 int compare_command(const CompareArguments& arguments);

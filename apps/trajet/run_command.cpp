@@ -60,6 +60,14 @@ void check_animation(double duration, double fps) {
 }  // namespace
 
 int run_command(const RunArguments& arguments) {
+  return run_scene(arguments, [&] {
+    Scene scene = read_named_scene(arguments.scene);
+    apply(arguments.overrides, scene);
+    return scene;
+  });
+}
+
+int run_scene(const RunArguments& arguments, const std::function<Scene()>& read) {
   const auto to_stdout = {arguments.json == "-", arguments.csv == "-", arguments.html == "-", arguments.glb == "-"};
   const auto stdout_count = ranges::count(to_stdout, true);
   if (stdout_count > 1)
@@ -73,11 +81,7 @@ int run_command(const RunArguments& arguments) {
   std::optional<PlotFile> plot;
   if (!arguments.plot.empty()) plot.emplace(arguments.plot);
   // A wrong scene must not cost the user an earlier report: files are opened behind these lines.
-  const World world = [&] {
-    Scene scene = read_named_scene(arguments.scene);
-    apply(arguments.overrides, scene);
-    return make_world(scene);
-  }();
+  const World world = make_world(read());
   if (!arguments.glb.empty()) check_animation(std::abs(world.duration), arguments.fps);
 
   std::optional<OutputFile> json, csv, html, glb;

@@ -8,7 +8,7 @@
 
 #include "terminal.hpp"
 #include "text_table.hpp"
-#include "trajet/io/names.hpp"
+#include "trajet/sim/names.hpp"
 #include "trajet/portable.hpp"
 
 namespace trajet {

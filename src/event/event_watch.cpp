@@ -121,7 +121,7 @@ void EventWatch::search(const Segment<>& segment, double from) {
   if (next_.found) return;  // where the motion was restarted
   next_ = {};
   const Path<Eigen::Dynamic> path(segment, inputs_);
-  const ComposedFunction function(path, Function{&enclosures_, &inputs_, &state_}, from - segment.t0(),
+  const ComposedFunction function(path, ProgramFunction{&enclosures_, &inputs_, &state_}, from - segment.t0(),
                                   segment.duration(), std::exchange(at_zero_, 0.0), true);
   const FunctionSample begin = function.at(function.begin());
   if (std::exchange(has_to_leave_, false) && last_.direction * begin.jet.curvature > 0.0 &&

@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "json_text.hpp"
-#include "trajet/io/names.hpp"
+#include "trajet/sim/names.hpp"
 #include "trajet/version.hpp"
 
 namespace trajet {

@@ -1,6 +1,6 @@
 #include "record_json.hpp"
 
-#include "trajet/io/names.hpp"
+#include "trajet/sim/names.hpp"
 
 namespace trajet::detail {
 

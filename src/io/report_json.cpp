@@ -1,7 +1,7 @@
 #include "trajet/io/report_json.hpp"
 
 #include "record_json.hpp"
-#include "trajet/io/names.hpp"
+#include "trajet/sim/names.hpp"
 #include "trajet/version.hpp"
 
 namespace trajet {

@@ -42,6 +42,8 @@ LIBRARIES = {
     "nlohmann": {"io", "viz"},
     "fmt": {"io", "viz", "apps"},
     "assimp": {"io"},
+    "tbb": {"ensemble"},
+    "Random123": {"ensemble"},
     "dlfcn.h": {"io"},
     "CLI": {"apps"},
 }

@@ -6,6 +6,7 @@
 
 #include "trajet/event/composed_function.hpp"
 #include "trajet/event/crossing.hpp"
+#include "trajet/event/program_function.hpp"
 #include "trajet/law/evaluate.hpp"
 #include "trajet/law/program.hpp"
 #include "trajet/math/series.hpp"
@@ -65,21 +66,6 @@ class EventWatch {
 
   /// How fast the program changes, per s.
   double rate_at(double t, const double* q, const double* rate);
-
-  /// The program on enclosures of the inputs it reads.
-  struct Function {
-    Evaluator<IntervalJet>* evaluator;
-    const std::vector<int>* inputs;  // components of the state
-    std::vector<IntervalJet>* state;
-    template <class Components>
-    IntervalJet operator()(const IntervalJet& t, const Components& x) const {
-      for (std::size_t i = 0; i < inputs->size(); ++i)
-        (*state)[static_cast<std::size_t>((*inputs)[i])] = x[static_cast<Eigen::Index>(i)];
-      IntervalJet result;
-      (*evaluator)(t, state->data(), &result);
-      return result;
-    }
-  };
 
   std::shared_ptr<const Program> program_;  // the evaluators keep pointers to it
   CrossingDirection direction_;

@@ -1,4 +1,4 @@
-#include "trajet/io/names.hpp"
+#include "trajet/sim/names.hpp"
 
 namespace trajet {
 
