@@ -5,8 +5,8 @@
 
 namespace trajet {
 
-/// A line on standard error that tells how far something is, only if that is a terminal, and only once it has taken half
-/// a second.
+/// A line on standard error that tells how far something is, only if that is a terminal, and only once it has taken
+/// half a second.
 class ProgressLine {
  public:
   ProgressLine();

@@ -33,7 +33,8 @@ std::map<std::string, Vector3> aims_of(const Scene& scene) {
   const World world = make_world(scene);
   for (const World::Obstacle& obstacle : world.obstacles) {
     const ShapeDefinition& shape = ranges::find(scene.obstacles, obstacle.name, &ObstacleDefinition::name)->shape;
-    const bool has_center = !std::holds_alternative<PlaneShape>(shape) && !std::holds_alternative<TerrainShape>(shape) &&
+    const bool has_center = !std::holds_alternative<PlaneShape>(shape) &&
+                            !std::holds_alternative<TerrainShape>(shape) &&
                             !std::holds_alternative<CompoundShape>(shape);
     if (has_center && !obstacle.drive) aims.emplace(obstacle.name, obstacle.p_WB);
   }
@@ -130,7 +131,8 @@ class SweepKeeper {
     const double left = all - static_cast<double>(tally_.count);
     // what is done is the share of the time, not of the motions: some may have been there
     const double done = seconds / (seconds + left / rate);
-    progress_.show(fmt::format("{} of {} motions, {:.3g} a second", tally_.count, setup_.last - setup_.first, rate), done);
+    progress_.show(fmt::format("{} of {} motions, {:.3g} a second", tally_.count, setup_.last - setup_.first, rate),
+                   done);
   }
 
   const SweepSetup& setup_;
@@ -173,9 +175,8 @@ void check_options(const SweepArguments& arguments) {
   for (const auto& [option, value] : of_one)
     if (!value->empty() && !arguments.only)
       throw InputError({option}, "is the report of one motion: it goes with --only; the table of all is --out");
-  const std::pair<const char*, bool> of_all[] = {{"--out", !arguments.out.empty()},
-                                                 {"--summary", !arguments.summary.empty()},
-                                                 {"--resume", arguments.resume}};
+  const std::pair<const char*, bool> of_all[] = {
+      {"--out", !arguments.out.empty()}, {"--summary", !arguments.summary.empty()}, {"--resume", arguments.resume}};
   for (const auto& [option, is_given] : of_all)
     if (is_given && arguments.only) throw InputError({option}, "is of all motions: --only replays one");
   if (arguments.resume && (arguments.out.empty() || is_stream(arguments.out)))
@@ -211,13 +212,12 @@ int sweep_command(const SweepArguments& arguments) {
                sweep_summary_json({scene.file, scene.title, arguments.design, arguments.seed}, summary));
   if (plot) {
     plot->open();
-    plot->write(sweep_figure(
-        {.title = scene.title.empty() ? scene.file : scene.title,
-         .header = keeper.results().header(),
-         .axis_count = setup.sweep.plan().axes.size(),
-         .is_sampled = !setup.sweep.plan().samples.empty(),
-         .rows = [&](const auto& use) { keeper.results().each_row(use); }},
-        summary));
+    plot->write(sweep_figure({.title = scene.title.empty() ? scene.file : scene.title,
+                              .header = keeper.results().header(),
+                              .axis_count = setup.sweep.plan().axes.size(),
+                              .is_sampled = !setup.sweep.plan().samples.empty(),
+                              .rows = [&](const auto& use) { keeper.results().each_row(use); }},
+                             summary));
   }
   if (!arguments.quiet && arguments.out != "-" && arguments.summary != "-") {
     OutputFile out("-");

@@ -36,23 +36,27 @@ SweepPlan plan_of(const SweepArguments& arguments, Scene& scene) {
   for (const std::string& text : arguments.vary) {
     GridAxis axis = read_range(text, "--vary", scene);
     if (axis.count == 0)
-      throw InputError({"--vary " + axis.quantity.name}, "a number of values is missing: LOW:HIGH:COUNT, got '" + text + "'");
+      throw InputError({"--vary " + axis.quantity.name},
+                       "a number of values is missing: LOW:HIGH:COUNT, got '" + text + "'");
     plan.axes.push_back(std::move(axis));
   }
   for (const std::string& text : arguments.sample) plan.samples.push_back(read_sample(text, "--sample", scene));
   if (plan.quantity_count() == 0)
-    throw InputError({"--vary"}, "nothing varies: --vary NAME=LOW:HIGH:COUNT or --sample NAME=normal(MEAN,SD) expected");
+    throw InputError({"--vary"},
+                     "nothing varies: --vary NAME=LOW:HIGH:COUNT or --sample NAME=normal(MEAN,SD) expected");
   for (std::size_t i = 0; i < plan.quantity_count(); ++i)
     for (std::size_t j = 0; j < i; ++j)
       if (plan.quantity(i).name == plan.quantity(j).name)
-        throw InputError({i < plan.axes.size() ? "--vary" : "--sample"}, "'" + plan.quantity(i).name + "' varies twice");
+        throw InputError({i < plan.axes.size() ? "--vary" : "--sample"},
+                         "'" + plan.quantity(i).name + "' varies twice");
   for (const std::string& text : arguments.correlate)
     plan.correlations.push_back(read_correlation(text, "--correlate", plan.samples));
   if (arguments.count && plan.samples.empty())
     throw InputError({"--count"}, "the number of motions is that of the grid: --count goes with --sample");
   if (arguments.count == 0U) throw InputError({"--count"}, "a positive number expected");
   plan.samples_per_node = arguments.count.value_or(plan.samples.empty() ? 1 : kDefaultCount);
-  if (plan.count() > kMostMotions) throw InputError({arguments.vary.empty() ? "--count" : "--vary"}, "more than 1e15 motions");
+  if (plan.count() > kMostMotions)
+    throw InputError({arguments.vary.empty() ? "--count" : "--vary"}, "more than 1e15 motions");
   try {
     const PlanValues are_possible(plan);
   } catch (const std::invalid_argument& error) {
@@ -64,7 +68,8 @@ SweepPlan plan_of(const SweepArguments& arguments, Scene& scene) {
 /// "ci(hit == 'target') < 0.1%".
 UntilCondition until_of(const std::string& text) {
   const auto fault = [&] {
-    return InputError({"--until"}, "ci(CONDITION) < SHARE expected, as in \"ci(hit == 'target') < 0.1%\", got '" + text + "'");
+    return InputError({"--until"},
+                      "ci(CONDITION) < SHARE expected, as in \"ci(hit == 'target') < 0.1%\", got '" + text + "'");
   };
   const std::size_t begin = text.find_first_not_of(' '), close = text.rfind(')');
   const std::size_t less = close == std::string::npos ? close : text.find('<', close);
@@ -84,7 +89,9 @@ std::pair<std::uint64_t, std::uint64_t> shard_of(const std::string& text, std::u
   const std::size_t slash = text.find('/');
   const std::optional<double> i = finite_number(text.substr(0, slash));
   const std::optional<double> n = slash == std::string::npos ? std::nullopt : finite_number(text.substr(slash + 1));
-  const auto is_whole = [](const std::optional<double>& x) { return x && *x >= 1.0 && *x <= 1e6 && *x == static_cast<double>(static_cast<long>(*x)); };
+  const auto is_whole = [](const std::optional<double>& x) {
+    return x && *x >= 1.0 && *x <= 1e6 && *x == static_cast<double>(static_cast<long>(*x));
+  };
   if (!is_whole(i) || !is_whole(n) || *i > *n)
     throw InputError({"--shard"}, "I/N with I from 1 to N expected, got '" + text + "'");
   const auto shard = static_cast<std::uint64_t>(*i), shards = static_cast<std::uint64_t>(*n);
@@ -114,7 +121,8 @@ SweepSetup make_sweep(const SweepArguments& arguments) {
   Scene scene = read_named_scene(arguments.scene);
   apply(arguments.overrides, scene);
   SweepPlan plan = plan_of(arguments, scene);
-  std::vector<std::string> columns = arguments.report.empty() ? default_columns(scene) : split_columns(arguments.report);
+  std::vector<std::string> columns =
+      arguments.report.empty() ? default_columns(scene) : split_columns(arguments.report);
   const std::size_t column_count = columns.size();
   std::optional<UntilCondition> until;
   std::size_t until_column = 0;
@@ -128,8 +136,10 @@ SweepSetup make_sweep(const SweepArguments& arguments) {
   const std::uint64_t count = plan.count();
   Sweep sweep(std::move(scene), std::move(plan), std::move(columns), {"--report"});
   if (until && !sweep.columns().is_condition(until_column))
-    throw InputError({"--until"}, "'" + until->condition + "' is no condition, as hit == 'target' or impact(1).speed > 20 are");
-  SweepSetup setup{.sweep = std::move(sweep), .column_count = column_count, .until = std::move(until), .until_column = until_column};
+    throw InputError({"--until"},
+                     "'" + until->condition + "' is no condition, as hit == 'target' or impact(1).speed > 20 are");
+  SweepSetup setup{
+      .sweep = std::move(sweep), .column_count = column_count, .until = std::move(until), .until_column = until_column};
   std::tie(setup.first, setup.last) = shard_of(arguments.shard, count);
   setup.fingerprint = fingerprint_of(arguments, text_of(arguments.scene));
   return setup;

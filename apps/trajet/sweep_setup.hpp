@@ -19,7 +19,8 @@ struct UntilCondition {
 /// What a command line asks of a sweep, checked.
 struct SweepSetup {
   Sweep sweep;
-  std::size_t column_count = 0;  ///< of those that are written; the condition of `until` follows, where it is none of them
+  std::size_t column_count =
+      0;  ///< of those that are written; the condition of `until` follows, where it is none of them
   std::optional<UntilCondition> until{};
   std::size_t until_column = 0;
   std::uint64_t first = 0, last = 0;  ///< of the motions to compute: all, or those of the shard

@@ -34,14 +34,16 @@ std::string hit_table(const SweepSummary& summary, int width) {
 }
 
 std::string dispersion_table(const SweepSummary& summary, int width) {
-  TextTable table{{"first impact on", "mean point [m]", "sd along axes [m]", "CEP 50 % [m]", "90 %", "50 % about center"}};
+  TextTable table{
+      {"first impact on", "mean point [m]", "sd along axes [m]", "CEP 50 % [m]", "90 %", "50 % about center"}};
   for (const SweepSummary::Hit& hit : summary.hits) {
     if (!hit.dispersion) continue;
     const Dispersion& spread = *hit.dispersion;
-    table.push_back({hit.name, fmt::format("({:.6g}, {:.6g}, {:.6g})", spread.mean.x(), spread.mean.y(), spread.mean.z()),
-                     fmt::format("{:.4g} x {:.4g}", spread.major_deviation, spread.minor_deviation),
-                     fmt::format("{:.4g}", spread.about_mean[0].radius), fmt::format("{:.4g}", spread.about_mean[1].radius),
-                     hit.about_aim ? fmt::format("{:.4g}", (*hit.about_aim)[0].radius) : ""});
+    table.push_back(
+        {hit.name, fmt::format("({:.6g}, {:.6g}, {:.6g})", spread.mean.x(), spread.mean.y(), spread.mean.z()),
+         fmt::format("{:.4g} x {:.4g}", spread.major_deviation, spread.minor_deviation),
+         fmt::format("{:.4g}", spread.about_mean[0].radius), fmt::format("{:.4g}", spread.about_mean[1].radius),
+         hit.about_aim ? fmt::format("{:.4g}", (*hit.about_aim)[0].radius) : ""});
   }
   return table.size() > 1 ? "\n" + format_table(table, {.width = width}) : "";
 }

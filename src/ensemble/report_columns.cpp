@@ -216,7 +216,8 @@ class ReportColumns::Compiled {
 
   [[noreturn]] static void throw_no_field(const ImpactSource& source, const SourceLocation& where) {
     if (source.impact < 1) throw InputError(where, "impacts are counted from 1: impact(1)." + source.field);
-    std::vector<std::string_view> known{"t", "speed", "x", "y", "z", "vx", "vy", "vz", "wx", "wy", "wz", "with", "body", "kind"};
+    std::vector<std::string_view> known{"t",  "speed", "x",  "y",  "z",    "vx",   "vy",
+                                        "vz", "wx",    "wy", "wz", "with", "body", "kind"};
     for (const ImpactVector& vector : kImpactVectors) {
       known.push_back(vector.name);
       if (!vector.short_name.empty()) known.push_back(vector.short_name);
@@ -326,7 +327,8 @@ std::vector<std::string> default_columns(const Scene& scene) {
     for (const char* part : {"x", "y", "z", "vx", "vy", "vz"}) columns.push_back(body.name + "." + part);
   for (const StateDefinition& state : scene.states) columns.push_back(state.name);
   if (!scene.obstacles.empty() || scene.bodies.size() > 1)
-    for (const char* part : {"hit", "impact(1).t", "impact(1).x", "impact(1).y", "impact(1).z"}) columns.emplace_back(part);
+    for (const char* part : {"hit", "impact(1).t", "impact(1).x", "impact(1).y", "impact(1).z"})
+      columns.emplace_back(part);
   return columns;
 }
 

@@ -64,7 +64,6 @@ class Scanner {
   }
   /// A text between quotes, if one stands here.
   std::optional<std::string> quoted() {
-    skip_blanks();
     const char quote = peek();
     if (quote != '\'' && quote != '"') return std::nullopt;
     const std::size_t end = text_.find(quote, at_ + 1);
@@ -105,8 +104,8 @@ std::optional<WordSource> word_source(std::string_view name, Scanner& scanner) {
 }
 
 /// Names that mean something in a body's own laws, and `speed`.
-constexpr std::string_view kOwnNames[] = {"r",  "v",  "w",  "x",      "y",  "z",  "vx", "vy",  "vz",    "wx",
-                                          "wy", "wz", "qw", "w_body", "qx", "qy", "qz", "speed"};
+constexpr std::string_view kOwnNames[] = {"r",  "v",  "w",  "x",  "y",      "z",  "vx", "vy", "vz",
+                                          "wx", "wy", "wz", "qw", "w_body", "qx", "qy", "qz", "speed"};
 
 }  // namespace
 
@@ -205,6 +204,7 @@ ReportText ReportReader::read(std::string_view text, ExtremeList& extremes) {
     }
     if (const std::optional<WordSource> word = word_source(name, scanner); word && !is_taken(name)) {
       const bool is_equal = scanner.take("=="), is_unequal = !is_equal && scanner.take("!=");
+      scanner.skip_blanks();
       const std::optional<std::string> other = is_equal || is_unequal ? scanner.quoted() : std::nullopt;
       if (!other)
         throw InputError(where_, "'" + std::string(text) + "': " + name +
@@ -224,7 +224,8 @@ ReportText ReportReader::read(std::string_view text, ExtremeList& extremes) {
       if (inside && split_columns(*inside).size() == 1) {
         ReportText formula = read(*inside, extremes);
         if (!formula.inputs.empty())
-          throw InputError(where_, "'" + std::string(text) + "': " + name + "(…) over the flight is of what changes then");
+          throw InputError(where_,
+                           "'" + std::string(text) + "': " + name + "(…) over the flight is of what changes then");
         extremes.push_back({Expression::parse(formula.text, where_, dashed_names_), name == "max"});
         stand_for(ReportInput::ExtremeSource{static_cast<int>(extremes.size()) - 1});
         continue;

@@ -138,10 +138,10 @@ void run_sweep(const Sweep& sweep, const SweepRange& range, const std::function<
     if (block.rows.empty() || !take(std::move(block))) is_over = true;
   };
   // as many blocks are on their way as keep all threads busy while an earlier one takes long
-  tbb::parallel_pipeline(
-      4 * threads, tbb::make_filter<void, SweepBlock>(tbb::filter_mode::serial_in_order, next_block) &
-                       tbb::make_filter<SweepBlock, SweepBlock>(tbb::filter_mode::parallel, compute) &
-                       tbb::make_filter<SweepBlock, void>(tbb::filter_mode::serial_in_order, hand_on));
+  tbb::parallel_pipeline(4 * threads,
+                         tbb::make_filter<void, SweepBlock>(tbb::filter_mode::serial_in_order, next_block) &
+                             tbb::make_filter<SweepBlock, SweepBlock>(tbb::filter_mode::parallel, compute) &
+                             tbb::make_filter<SweepBlock, void>(tbb::filter_mode::serial_in_order, hand_on));
 }
 
 }  // namespace trajet

@@ -23,7 +23,8 @@ const VariedQuantity& SweepPlan::quantity(std::size_t i) const {
 std::uint64_t SweepPlan::count() const {
   constexpr std::uint64_t kMost = std::numeric_limits<std::uint64_t>::max();
   std::uint64_t product = samples.empty() ? 1 : samples_per_node;
-  for (const GridAxis& axis : axes) product = axis.count != 0 && product > kMost / axis.count ? kMost : product * axis.count;
+  for (const GridAxis& axis : axes)
+    product = axis.count != 0 && product > kMost / axis.count ? kMost : product * axis.count;
   return product;
 }
 
@@ -32,13 +33,15 @@ class PlanValues::Sobol {
  public:
   explicit Sobol(std::size_t dimension) : engine_(dimension), dimension_(dimension) {}
 
-  /// 64 bits of each coordinate of point `index`.
+  /// 64 bits of each coordinate of point `index`. The first is the origin, which Boost's sequence leaves out; without
+  /// it the points are not even (Owen 2020).
   void point(std::uint64_t index, std::vector<std::uint64_t>& bits) {
+    bits.assign(dimension_, 0);
+    if (index == 0) return;
     if (index != next_) {
-      engine_.seed(index);
+      engine_.seed(index - 1);
       next_ = index;
     }
-    bits.resize(dimension_);
     for (std::uint64_t& each : bits) each = engine_();
     ++next_;
   }
@@ -46,7 +49,7 @@ class PlanValues::Sobol {
  private:
   boost::random::sobol engine_;
   std::size_t dimension_;
-  std::uint64_t next_ = 0;
+  std::uint64_t next_ = 1;
 };
 
 PlanValues::PlanValues(const SweepPlan& plan) : plan_(plan), shares_(plan.samples.size()) {

@@ -14,7 +14,9 @@
 namespace trajet {
 namespace {
 
-void append_number(std::string& text, double value) { fmt::format_to(std::back_inserter(text), FMT_COMPILE("{}"), value); }
+void append_number(std::string& text, double value) {
+  fmt::format_to(std::back_inserter(text), FMT_COMPILE("{}"), value);
+}
 
 /// In quotes where it holds what would end it (RFC 4180).
 void append_field(std::string& text, std::string_view field) {
@@ -100,7 +102,8 @@ SweepHeader read_csv_header(std::string_view line, std::size_t quantity_count) {
 SweepRow read_csv_row(std::string_view line, std::size_t quantity_count) {
   const std::vector<std::string> fields = csv_fields(line);
   const auto fault = [&](const std::string& field) { return InputError({}, "a number expected, got '" + field + "'"); };
-  if (fields.size() <= quantity_count) throw InputError({}, "a row of a sweep expected, got '" + std::string(line) + "'");
+  if (fields.size() <= quantity_count)
+    throw InputError({}, "a row of a sweep expected, got '" + std::string(line) + "'");
   SweepRow row;
   const std::optional<double> index = finite_number(fields.front());
   if (!index || *index < 0.0 || *index != std::floor(*index)) throw fault(fields.front());

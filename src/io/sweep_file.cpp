@@ -29,8 +29,7 @@ struct JournalLine {
   SweepTally tally{};
 
   std::string text() const {
-    std::string result =
-        fmt::format("{} {:08x} {} {} {}", end, checksum, tally.count, tally.failed, tally.condition);
+    std::string result = fmt::format("{} {:08x} {} {} {}", end, checksum, tally.count, tally.failed, tally.condition);
     for (const auto& [name, count] : tally.hits) result += fmt::format(" {}={}", name, count);
     return result + " .\n";
   }
@@ -91,7 +90,8 @@ void SweepFile::create(const std::string& fingerprint, const std::string& header
 
 void SweepFile::go_on(const std::string& fingerprint, const std::string& header_line) {
   const auto is_another = [this] {
-    return FileError(path_ + " is of another sweep (scene, values, columns, seed or version differ): it cannot go on here");
+    return FileError(path_ +
+                     " is of another sweep (scene, values, columns, seed or version differ): it cannot go on here");
   };
   std::ifstream table(path_, std::ios::binary);
   std::ifstream journal(journal_path_, std::ios::binary);
@@ -108,7 +108,8 @@ void SweepFile::go_on(const std::string& fingerprint, const std::string& header_
     const std::optional<JournalLine> entry = read_journal_line(line);
     if (!entry || entry->end < size_) break;
     block.resize(entry->end - size_);
-    if (!table.read(block.data(), static_cast<std::streamsize>(block.size())) || checksum(block) != entry->checksum) break;
+    if (!table.read(block.data(), static_cast<std::streamsize>(block.size())) || checksum(block) != entry->checksum)
+      break;
     size_ = entry->end;
     found_.add(entry->tally);
     kept += line + "\n";

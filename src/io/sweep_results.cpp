@@ -84,12 +84,14 @@ SweepSummary SweepResults::summary(const SweepTally& tally) const {
   for (std::size_t i = 0; i < header_.columns.size(); ++i) {
     const RunningStatistics& statistics = statistics_[i];
     if (statistics.count() == 0) continue;
-    result.columns.push_back({header_.columns[i], statistics,
-                              quantiles(numbers(header_.quantities.size() + i), statistics.count(), SweepSummary::kShares)});
+    result.columns.push_back(
+        {header_.columns[i], statistics,
+         quantiles(numbers(header_.quantities.size() + i), statistics.count(), SweepSummary::kShares)});
   }
   const std::optional<std::array<std::size_t, 4>> columns = impact_columns();
   for (const auto& [name, count] : tally.hits) {
-    SweepSummary::Hit hit{name, count, static_cast<double>(count) / static_cast<double>(std::max<std::uint64_t>(tally.count, 1)),
+    SweepSummary::Hit hit{name, count,
+                          static_cast<double>(count) / static_cast<double>(std::max<std::uint64_t>(tally.count, 1)),
                           exact_share_interval(count, tally.count)};
     const auto word = words_.find(name);
     if (columns && word != words_.end() && count >= 2) {
@@ -136,12 +138,10 @@ Json hit_json(const SweepSummary::Hit& hit) {
   Json result{{"count", hit.count}, {"share", hit.share}, {"ci95", {hit.ci95.low, hit.ci95.high}}};
   if (!hit.dispersion) return result;
   const Dispersion& spread = *hit.dispersion;
-  result["dispersion"] = {{"mean", detail::array(spread.mean)},
-                          {"major_axis", detail::array(spread.major)},
-                          {"minor_axis", detail::array(spread.minor)},
-                          {"major_sd", spread.major_deviation},
-                          {"minor_sd", spread.minor_deviation},
-                          {"about_mean", circles_json(spread.about_mean, "cep")}};
+  result["dispersion"] = {
+      {"mean", detail::array(spread.mean)},        {"major_axis", detail::array(spread.major)},
+      {"minor_axis", detail::array(spread.minor)}, {"major_sd", spread.major_deviation},
+      {"minor_sd", spread.minor_deviation},        {"about_mean", circles_json(spread.about_mean, "cep")}};
   if (hit.about_aim) result["dispersion"]["about_aim"] = circles_json(*hit.about_aim, "r");
   return result;
 }

@@ -46,7 +46,8 @@ std::string with_unit_apart(const std::string& text) {
   const std::optional<DecimalNumber> number = leading_number(text);
   if (!number || number->length == text.size()) return text;
   const char next = text[number->length];
-  const bool is_letter = (next >= 'a' && next <= 'z') || (next >= 'A' && next <= 'Z') || next == '%' || (next & 0x80) != 0;
+  const bool is_letter =
+      (next >= 'a' && next <= 'z') || (next >= 'A' && next <= 'Z') || next == '%' || (next & 0x80) != 0;
   return is_letter ? text.substr(0, number->length) + " " + text.substr(number->length) : text;
 }
 
@@ -69,7 +70,8 @@ Assignment split_assignment(const std::string& text, const std::string& option, 
 /// A quantity of the scene, and how texts of its values are read.
 class QuantityReader {
  public:
-  QuantityReader(const Assignment& assignment, Scene& scene) : name_(assignment.name), where_(assignment.where), scene_(scene) {
+  QuantityReader(const Assignment& assignment, Scene& scene)
+      : name_(assignment.name), where_(assignment.where), scene_(scene) {
     if (name_.find('.') != std::string::npos) {
       const detail::SceneKey key = detail::find_key(scene, name_, where_);
       if (!key.set) throw InputError(where_, "'" + name_ + "' is a word: only numbers can be varied");
@@ -168,8 +170,10 @@ SampledQuantity read_sample(const std::string& text, const std::string& option, 
   const SourceLocation& where = assignment.where;
   const std::size_t open = assignment.value.find('(');
   if (open == std::string::npos || assignment.value.back() != ')')
-    throw InputError(where, "normal(MEAN,SD), uniform(LOW,HIGH), lognormal(MEAN,SD) or truncated(MEAN,SD,LOW,HIGH) "
-                            "expected, got '" + assignment.value + "'");
+    throw InputError(where,
+                     "normal(MEAN,SD), uniform(LOW,HIGH), lognormal(MEAN,SD) or truncated(MEAN,SD,LOW,HIGH) "
+                     "expected, got '" +
+                         assignment.value + "'");
   const std::string kind(trimmed(std::string_view(assignment.value).substr(0, open)));
   const auto known = ranges::find(kKinds, kind, &std::pair<std::string_view, std::size_t>::first);
   if (known == std::end(kKinds)) {
@@ -180,19 +184,22 @@ SampledQuantity read_sample(const std::string& text, const std::string& option, 
   const std::vector<std::string> texts =
       parts(std::string_view(assignment.value).substr(open + 1, assignment.value.size() - open - 2), ',');
   if (texts.size() != known->second)
-    throw InputError(where, kind + " takes " + std::to_string(known->second) + " numbers, got " + std::to_string(texts.size()));
+    throw InputError(
+        where, kind + " takes " + std::to_string(known->second) + " numbers, got " + std::to_string(texts.size()));
   QuantityReader reader(assignment, scene);
   std::vector<double> numbers;
   for (const std::string& each : texts) numbers.push_back(reader.number(each, "a number of " + kind));
   const bool has_limits = kind == "uniform" || kind == "truncated";
   if (kind != "uniform" && !(numbers[1] > 0.0)) throw InputError(where, "the standard deviation must be positive");
-  if (kind == "lognormal" && !(numbers[0] > 0.0)) throw InputError(where, "the mean of a lognormal quantity must be positive");
+  if (kind == "lognormal" && !(numbers[0] > 0.0))
+    throw InputError(where, "the mean of a lognormal quantity must be positive");
   if (has_limits && !(numbers[numbers.size() - 2] < numbers.back()))
     throw InputError(where, "the low end must lie below the high one");
-  const Distribution distribution = kind == "normal"      ? Distribution::normal(numbers[0], numbers[1])
-                                    : kind == "uniform"   ? Distribution::uniform(numbers[0], numbers[1])
-                                    : kind == "lognormal" ? Distribution::lognormal(numbers[0], numbers[1])
-                                                          : Distribution::truncated(numbers[0], numbers[1], numbers[2], numbers[3]);
+  const Distribution distribution = kind == "normal"    ? Distribution::normal(numbers[0], numbers[1])
+                                    : kind == "uniform" ? Distribution::uniform(numbers[0], numbers[1])
+                                    : kind == "lognormal"
+                                        ? Distribution::lognormal(numbers[0], numbers[1])
+                                        : Distribution::truncated(numbers[0], numbers[1], numbers[2], numbers[3]);
   if (kind == "truncated" && !std::isfinite(distribution.quantile(0.5)))
     throw InputError(where, "between the ends lies no part of the normal distribution that numbers can tell from none");
   return {reader.quantity(), distribution};

@@ -21,6 +21,7 @@ using detail::Range;
 constexpr std::size_t kMostPanels = 4;
 constexpr std::uint64_t kMostPoints = 5000;  // more are no other picture
 constexpr std::uint64_t kMostCells = 250'000;
+constexpr double kOverlap = 1.02;  // of the cells of a map, so that nothing shines through between them
 constexpr FigureSize kPanel{560, 380};
 constexpr int kTitleHeight = 48;
 
@@ -55,7 +56,8 @@ class SweepFigure {
       script_ += "unset label 1\n";
     }
     if (scattered_ != nullptr) add_scatter(frame_of(panel));
-    if (panels == 1 && columns_.empty() && scattered_ == nullptr) script_ += "set xrange [0:1]\nset yrange [0:1]\nplot NaN\n";
+    if (panels == 1 && columns_.empty() && scattered_ == nullptr)
+      script_ += "set xrange [0:1]\nset yrange [0:1]\nplot NaN\n";
     script_ += "unset multiplot\n";
     return {std::move(script_), size_, sweep_.title};
   }
@@ -69,7 +71,8 @@ class SweepFigure {
 
   Frame frame_of(int panel) const {
     const double width = 1.0 / across_, height = static_cast<double>(kPanel.height) / size_.height;
-    const double left = width * (panel % across_), top = 1.0 - static_cast<double>(kTitleHeight) / size_.height - height * (panel / across_);
+    const double left = width * (panel % across_),
+                 top = 1.0 - static_cast<double>(kTitleHeight) / size_.height - height * (panel / across_);
     return {left + 0.16 * width, left + 0.95 * width, top - 0.82 * height, top - 0.03 * height};
   }
 
@@ -80,7 +83,8 @@ class SweepFigure {
 
   std::string next_block() { return fmt::format("rows{}", ++last_block_); }
 
-  void add_axes(const std::string& x, const Range& x_range, const std::string& y, const Range& y_range, const Frame& frame) {
+  void add_axes(const std::string& x, const Range& x_range, const std::string& y, const Range& y_range,
+                const Frame& frame) {
     script_ += detail::place(frame) + detail::axis("x", x_range, 5) + detail::axis("y", y_range, 5);
     script_ += fmt::format("set xlabel {}\nset ylabel {}\n", quoted(x), quoted(y));
   }
@@ -166,8 +170,8 @@ class SweepFigure {
       values.erase(std::unique(values.begin(), values.end()), values.end());
       return std::max<std::size_t>(values.size(), 2) - 1;
     };
-    const double half_x = 0.5 * x.extent() / static_cast<double>(steps(std::move(xs)));
-    const double half_y = 0.5 * y.extent() / static_cast<double>(steps(std::move(ys)));
+    const double half_x = kOverlap * 0.5 * x.extent() / static_cast<double>(steps(std::move(xs)));
+    const double half_y = kOverlap * 0.5 * y.extent() / static_cast<double>(steps(std::move(ys)));
     std::vector<std::vector<double>> cells;
     each_shown_row(kMostCells, [&](std::span<const double> row) {
       if (!std::isnan(row[stream])) cells.push_back({row[1], row[0], half_x, half_y, row[stream]});
@@ -234,8 +238,10 @@ class SweepFigure {
     const std::string cloud = next_block(), ellipse = next_block();
     script_ += detail::data_block(cloud, points) + detail::data_block(ellipse, ellipses);
     add_axes("first impacts on " + scattered_->name + " [m]", x, "from their mean [m]", y, frame);
-    script_ += fmt::format("set size ratio -1\nplot ${} with points pt 7 ps 0.35 lc '#8097c8', ${} with lines lw 2 lc '#c02020'\n"
-                           "set size noratio\n", cloud, ellipse);
+    script_ += fmt::format(
+        "set size ratio -1\nplot ${} with points pt 7 ps 0.35 lc '#8097c8', ${} with lines lw 2 lc '#c02020'\n"
+        "set size noratio\n",
+        cloud, ellipse);
   }
 
   const ShownSweep& sweep_;
@@ -250,6 +256,8 @@ class SweepFigure {
 
 }  // namespace
 
-Figure sweep_figure(const ShownSweep& sweep, const SweepSummary& summary) { return SweepFigure(sweep, summary).build(); }
+Figure sweep_figure(const ShownSweep& sweep, const SweepSummary& summary) {
+  return SweepFigure(sweep, summary).build();
+}
 
 }  // namespace trajet

@@ -35,15 +35,16 @@ struct Dispersion {
   /// A share of the points lies within this distance.
   struct Circle {
     double share = 0.0;
-    double radius = 0.0;                ///< m, empirical
-    std::array<double, 2> ci95{};       ///< of the true one, by ranks: whatever the distribution
+    double radius = 0.0;           ///< m, empirical
+    std::array<double, 2> ci95{};  ///< of the true one, by ranks: whatever the distribution
   };
 
   std::uint64_t count = 0;
-  Vector3 mean = Vector3::Zero();                            ///< m
-  Vector3 major = Vector3::Zero(), minor = Vector3::Zero();  ///< unit axes of the ellipse, across the direction of least spread
-  double major_deviation = 0.0, minor_deviation = 0.0;        ///< standard deviations along them, m
-  std::array<Circle, 3> about_mean{};                         ///< CEP 50, 90 and 95 %
+  Vector3 mean = Vector3::Zero();  ///< m
+  Vector3 major = Vector3::Zero(),
+          minor = Vector3::Zero();  ///< unit axes of the ellipse, across the direction of least spread
+  double major_deviation = 0.0, minor_deviation = 0.0;  ///< standard deviations along them, m
+  std::array<Circle, 3> about_mean{};                   ///< CEP 50, 90 and 95 %
 };
 
 /// Goes through the points a few times, and keeps none of them.

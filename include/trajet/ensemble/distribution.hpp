@@ -22,10 +22,10 @@ class Distribution {
   Distribution(Kind kind, double a, double b) : kind_(kind), a_(a), b_(b) {}
 
   Kind kind_;
-  double a_, b_;                           // mean and deviation, of the logarithm for a lognormal one; or the limits
-  double low_share_ = 0.0, share_ = 1.0;   // of the normal distribution: below the lower limit, and between both
-  double low_ = 0.0, high_ = 0.0;          // of a truncated one
-  bool is_upper_ = false;                  // shares are counted from above, where they have more digits
+  double a_, b_;                          // mean and deviation, of the logarithm for a lognormal one; or the limits
+  double low_share_ = 0.0, share_ = 1.0;  // of the normal distribution: below the lower limit, and between both
+  double low_ = 0.0, high_ = 0.0;         // of a truncated one
+  bool is_upper_ = false;                 // shares are counted from above, where they have more digits
 };
 
 /// The value of the standard normal distribution below which the share `u` lies.

@@ -28,7 +28,8 @@ std::vector<std::string> split_columns(std::string_view list);
 ///   vz`, `v` and `speed` of the body before it, and by their names in reports `point`, `normal`, `position`,
 ///   `velocity_before`, `velocity_after`, `angular_velocity_before`, `angular_velocity_after`, `impulse`;
 /// - `max(EXPR)`, `min(EXPR)`: the largest and the smallest value over the whole motion;
-/// - words: `hit`, the name of what was hit first; `status`; `impact(2).with`, `.body`, `.kind`. Alone they are columns of
+/// - words: `hit`, the name of what was hit first; `status`; `impact(2).with`, `.body`, `.kind`. Alone they are columns
+/// of
 ///   words; compared with a text, as in `hit == 'target'`, they are conditions, 1 or 0.
 class ReportColumns {
  public:

@@ -31,8 +31,8 @@ struct SweepBlock {
 /// Many motions of one scene: each row of a plan with its own values, and what columns report of it.
 class Sweep {
  public:
-  /// `columns` may use what ReportColumns knows; errors in them point at `columns_where`. Throws InputError where scene,
-  /// plan or columns are wrong.
+  /// `columns` may use what ReportColumns knows; errors in them point at `columns_where`. Throws InputError where
+  /// scene, plan or columns are wrong.
   Sweep(Scene scene, SweepPlan plan, std::vector<std::string> columns, const SourceLocation& columns_where = {});
 
   const SweepPlan& plan() const { return plan_; }
@@ -70,8 +70,8 @@ struct SweepRange {
   int threads = 0;  ///< 0: as many as the machine has
 };
 
-/// Computes motions of a sweep block by block, and hands the blocks on in their order: what is handed on does not depend
-/// on the number of threads.
+/// Computes motions of a sweep block by block, and hands the blocks on in their order: what is handed on does not
+/// depend on the number of threads.
 ///
 /// `take` is called by one thread at a time; false ends the sweep. `should_stop` may be called by several; once it is
 /// true, blocks that are not complete are dropped.

@@ -29,8 +29,8 @@ double turning_time(const F& f, double a, double b) {
 
 }  // namespace detail
 
-/// The largest value that a function takes between f.begin() and f.end(), both included, to rounding; -infinity where it
-/// has none.
+/// The largest value that a function takes between f.begin() and f.end(), both included, to rounding; -infinity where
+/// it has none.
 ///
 /// Pieces whose enclosure lies below what has been found are dropped; on those that rise, fall or bend up the largest
 /// value is at an end, on those that bend down where the rate vanishes. All others are halved.

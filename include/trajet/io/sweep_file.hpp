@@ -17,8 +17,8 @@ namespace trajet {
 /// behind the last complete block is cut off when the sweep goes on. A sweep that is complete has no journal.
 class SweepFile {
  public:
-  /// `fingerprint`, one line, tells sweeps apart: only one of the same goes on. Throws FileError where the file cannot be
-  /// made, where it holds an unfinished sweep and `resume` is false, or that of another one and `resume` is true.
+  /// `fingerprint`, one line, tells sweeps apart: only one of the same goes on. Throws FileError where the file cannot
+  /// be made, where it holds an unfinished sweep and `resume` is false, or that of another one and `resume` is true.
   SweepFile(std::string path, const std::string& fingerprint, const std::string& header_line, bool resume);
   SweepFile(const SweepFile&) = delete;
   SweepFile& operator=(const SweepFile&) = delete;

@@ -7,8 +7,8 @@
 
 namespace trajet {
 
-/// NAME=LOW:HIGH or NAME=LOW:HIGH:COUNT of a command line: a parameter or a key of the scene, and the values at the ends
-/// of its range as in scene files (`theta=-1deg:1 deg:1001`). COUNT is 0 where it is left out.
+/// NAME=LOW:HIGH or NAME=LOW:HIGH:COUNT of a command line: a parameter or a key of the scene, and the values at the
+/// ends of its range as in scene files (`theta=-1deg:1 deg:1001`). COUNT is 0 where it is left out.
 ///
 /// Throws InputError whose place is `option` and the name. Adds a sentence to the scene's warnings where a bare number
 /// stands for what has a unit in the scene.
