@@ -182,7 +182,7 @@ void CommandLine::add_sweep() {
   add_word(command, "--seed", sweep_.seed, "S", "seed of the samples, default: 0");
   add_word(command, "--design", sweep_.design, "DESIGN", "of samples: random, lhs or sobol");
   add_word(command, "--report", sweep_.report, "LIST", "what to report: t, ball.x, hit, impact(1).t, max(ball.z), ...");
-  add_file(command, "--out", sweep_.out, "write the table there as CSV, - for standard output");
+  add_file(command, "--out", sweep_.out, "write the table there, as CSV (- for standard output) or HDF5 (.h5)");
   add_file(command, "--summary", sweep_.summary, "write what it comes to there as JSON, - for standard output");
   add_word(command, "--threads", sweep_.threads, "N", "default: as many as the machine has").check(positive_number());
   add_word(command, "--until", sweep_.until, "COND", "end when the share is known so well: \"ci(hit == 'target') < 0.1%\"");

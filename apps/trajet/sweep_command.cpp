@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <map>
 #include <optional>
 #include <utility>
@@ -20,8 +21,10 @@
 #include "trajet/io/output_file.hpp"
 #include "trajet/io/sweep_csv.hpp"
 #include "trajet/io/sweep_file.hpp"
+#include "trajet/io/sweep_hdf5.hpp"
 #include "trajet/io/sweep_results.hpp"
 #include "trajet/portable.hpp"
+#include "trajet/version.hpp"
 #include "trajet/viz/sweep_figure.hpp"
 
 namespace trajet {
@@ -53,6 +56,9 @@ SweepTally tally_of(const SweepBlock& block, const SweepSetup& setup) {
   return tally;
 }
 
+/// The table that grows: HDF5 files are made of a complete one.
+std::string table_name(const std::string& out) { return is_hdf5_name(out) ? out + ".csv" : out; }
+
 /// What becomes of the rows of a sweep: the table, what it comes to, how far it is.
 class SweepKeeper {
  public:
@@ -65,7 +71,7 @@ class SweepKeeper {
       stream_.emplace(arguments.out);
       stream_->write(header_line);
     } else if (!arguments.out.empty()) {
-      file_.emplace(arguments.out, setup.fingerprint, header_line, arguments.resume);
+      file_.emplace(table_name(arguments.out), setup.fingerprint, header_line, arguments.resume);
       tally_ = file_->found();
       is_complete_ = file_->is_complete();
       file_->each_line([&](std::string_view line) { take_back(read_csv_row(line, header_.quantities.size())); });
@@ -169,6 +175,29 @@ int replay(const SweepArguments& arguments, const SweepSetup& setup) {
   return run_scene(run, [&] { return setup.sweep.variant(*arguments.only); });
 }
 
+/// Whether that file was completed by an earlier sweep: of one that was not there is a table beside it.
+bool is_written(const std::string& hdf5) {
+  return std::filesystem::exists(hdf5) && !std::filesystem::exists(table_name(hdf5));
+}
+
+SweepOrigin origin_of(const SweepArguments& arguments, const SweepSetup& setup) {
+  std::string plan;
+  const auto add = [&](const char* option, const std::vector<std::string>& texts) {
+    for (const std::string& text : texts) plan += fmt::format("{} {}\n", option, text);
+  };
+  add("--set", arguments.overrides.parameters);
+  add("--vary", arguments.vary);
+  add("--sample", arguments.sample);
+  add("--correlate", arguments.correlate);
+  plan += fmt::format("--design {}\n", arguments.design);
+  return {{"trajet", kVersion},
+          {"scene", arguments.scene},
+          {"scene_text", text_of(arguments.scene)},
+          {"plan", plan},
+          {"count", fmt::format("{}", setup.sweep.plan().count())},
+          {"seed", fmt::format("{}", arguments.seed)}};
+}
+
 void check_options(const SweepArguments& arguments) {
   const std::pair<const char*, const std::string*> of_one[] = {
       {"--json", &arguments.json}, {"--csv", &arguments.csv}, {"--html", &arguments.html}, {"--glb", &arguments.glb}};
@@ -183,7 +212,7 @@ void check_options(const SweepArguments& arguments) {
     throw InputError({"--resume"}, "goes on with a file: --out FILE.csv expected");
   if (arguments.out == "-" && arguments.summary == "-")
     throw InputError({"--summary"}, "only one of --out and --summary can go to standard output");
-  check_outputs(arguments.scene, {{"--out", arguments.out, {".csv"}},
+  check_outputs(arguments.scene, {{"--out", arguments.out, {".csv", ".h5", ".hdf5"}},
                                   {"--summary", arguments.summary, {".json"}},
                                   {"--plot", arguments.plot, {}}});
 }
@@ -197,6 +226,14 @@ int sweep_command(const SweepArguments& arguments) {
   std::optional<PlotFile> plot;
   if (!arguments.plot.empty()) plot.emplace(arguments.plot);
 
+  if (is_hdf5_name(arguments.out)) {
+    require_hdf5();
+    if (arguments.resume && is_written(arguments.out)) {
+      tell("{} is complete\n", arguments.out);
+      return kDone;
+    }
+  }
+
   let_signals_end_runs();
   SweepKeeper keeper(setup, arguments);
   if (!keeper.is_complete())
@@ -205,6 +242,10 @@ int sweep_command(const SweepArguments& arguments) {
         [&](SweepBlock&& block) { return keeper.take(std::move(block)); }, is_end_wanted);
   keeper.finish();
 
+  if (is_hdf5_name(arguments.out) && keeper.is_complete()) {
+    write_sweep_hdf5(arguments.out, keeper.results(), origin_of(arguments, setup));
+    std::filesystem::remove(table_name(arguments.out));
+  }
   const SweepSummary summary = keeper.results().summary(keeper.tally());
   const Scene& scene = setup.sweep.scene();
   if (!arguments.summary.empty())

@@ -15,6 +15,7 @@ namespace {
 
 using detail::Json;
 
+/// The number itself, which outlives the view.
 std::string_view bytes_of(const double& number) { return {reinterpret_cast<const char*>(&number), sizeof number}; }
 
 bool read_number(Spool::Reader& reader, double& number) {
@@ -27,7 +28,14 @@ SweepResults::SweepResults(SweepHeader header, const std::string& beside, std::m
     : header_(std::move(header)),
       aims_(std::move(aims)),
       statistics_(header_.columns.size()),
-      spool_(beside, header_.quantities.size() + header_.columns.size()) {}
+      has_words_(header_.columns.size()),
+      spool_(beside, header_.quantities.size() + header_.columns.size() + 1) {}
+
+std::vector<std::string> SweepResults::words() const {
+  std::vector<std::string> words(words_.size());
+  for (const auto& [word, number] : words_) words[static_cast<std::size_t>(number)] = word;
+  return words;
+}
 
 double SweepResults::word_number(const std::string& word) {
   return words_.try_emplace(word, static_cast<double>(words_.size())).first->second;
@@ -42,9 +50,11 @@ void SweepResults::add(const SweepRow& row) {
       statistics_[i].add(number);
     } else if (const auto* word = std::get_if<std::string>(&row.cells[i])) {
       number = word_number(*word);
+      has_words_[i] = true;
     }
     spool_.append(row.values.size() + i, bytes_of(number));
   }
+  spool_.append(row.values.size() + header_.columns.size(), bytes_of(static_cast<double>(row.index)));
   ++row_count_;
 }
 
@@ -57,7 +67,7 @@ NumberSource SweepResults::numbers(std::size_t stream) const {
 }
 
 void SweepResults::each_row(const std::function<void(std::span<const double>)>& use) const {
-  const std::size_t streams = header_.quantities.size() + header_.columns.size();
+  const std::size_t streams = header_.quantities.size() + header_.columns.size() + 1;
   std::vector<Spool::Reader> readers;
   for (std::size_t i = 0; i < streams; ++i) readers.emplace_back(spool_, i);
   std::vector<double> row(streams);

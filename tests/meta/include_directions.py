@@ -42,6 +42,7 @@ LIBRARIES = {
     "nlohmann": {"io", "viz"},
     "fmt": {"io", "viz", "apps"},
     "assimp": {"io"},
+    "hdf5.h": {"io"},
     "tbb": {"ensemble"},
     "Random123": {"ensemble"},
     "dlfcn.h": {"io"},

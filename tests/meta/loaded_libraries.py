@@ -6,8 +6,8 @@
 import subprocess
 import sys
 
-# Only runs that read a mesh file need assimp; tinygltf as a library draws along images and compressed meshes.
-LARGE = ("assimp", "tinygltf", "draco", "stb", "minizip")
+# Only runs that read a mesh file need assimp, sweeps that write such a file HDF5; tinygltf as a library draws along images and compressed meshes.
+LARGE = ("assimp", "tinygltf", "draco", "stb", "minizip", "hdf5")
 
 listing = subprocess.run(["ldd", sys.argv[1]], capture_output=True, text=True, check=True).stdout
 names = [line.split()[0] for line in listing.splitlines() if line.strip()]

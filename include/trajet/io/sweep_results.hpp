@@ -24,7 +24,11 @@ class SweepResults {
   SweepSummary summary(const SweepTally& tally) const;
 
   const SweepHeader& header() const { return header_; }
-  /// Calls `use` with the numbers of each row: see SweepRowSource.
+  std::uint64_t row_count() const { return row_count_; }
+  /// Whether the column holds words; their numbers are places in `words`.
+  bool is_word(std::size_t column) const { return has_words_[column]; }
+  std::vector<std::string> words() const;
+  /// Calls `use` with the numbers of each row: see SweepRowSource. Behind them stands the row's index.
   void each_row(const std::function<void(std::span<const double>)>& use) const;
 
  private:
@@ -36,6 +40,7 @@ class SweepResults {
   SweepHeader header_;
   std::map<std::string, Vector3> aims_;
   std::vector<RunningStatistics> statistics_;  // of the columns
+  std::vector<bool> has_words_;                // likewise
   std::map<std::string, double> words_;
   std::uint64_t row_count_ = 0;
   Spool spool_;
