@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <map>
 #include <optional>
+#include <sstream>
 #include <utility>
 
 #include "commands.hpp"
@@ -14,8 +15,10 @@
 #include "run_monitor.hpp"
 #include "scene_source.hpp"
 #include "sweep_arguments.hpp"
+#include "sweep_ranks.hpp"
 #include "sweep_setup.hpp"
 #include "sweep_summary.hpp"
+#include "sweep_tally.hpp"
 #include "terminal.hpp"
 #include "trajet/ensemble/share_interval.hpp"
 #include "trajet/io/output_file.hpp"
@@ -42,18 +45,6 @@ std::map<std::string, Vector3> aims_of(const Scene& scene) {
     if (has_center && !obstacle.drive) aims.emplace(obstacle.name, obstacle.p_WB);
   }
   return aims;
-}
-
-SweepTally tally_of(const SweepBlock& block, const SweepSetup& setup) {
-  SweepTally tally{.count = block.rows.size()};
-  for (const SweepRow& row : block.rows) {
-    if (row.status == RunStatus::failed) ++tally.failed;
-    if (!row.hit.empty()) ++tally.hits[row.hit];
-    if (!setup.until) continue;
-    const auto* holds = std::get_if<double>(&row.cells[setup.until_column]);
-    if (holds != nullptr && *holds != 0.0) ++tally.condition;
-  }
-  return tally;
 }
 
 /// The table that grows: HDF5 files are made of a complete one.
@@ -100,6 +91,14 @@ class SweepKeeper {
     new_count_ += tally.count;
     if (progress_.is_due()) show();
     return !is_enough();
+  }
+
+  /// Rows that others have computed, as lines of the table.
+  void take_lines(const std::string& lines, const SweepTally& tally) {
+    file_->append(lines, tally);
+    std::istringstream stream(lines);
+    for (std::string line; std::getline(stream, line);) results_.add(read_csv_row(line, header_.quantities.size()));
+    tally_.add(tally);
   }
 
   bool is_enough() const {
@@ -175,9 +174,19 @@ int replay(const SweepArguments& arguments, const SweepSetup& setup) {
   return run_scene(run, [&] { return setup.sweep.variant(*arguments.only); });
 }
 
-/// Whether that file was completed by an earlier sweep: of one that was not there is a table beside it.
-bool is_written(const std::string& hdf5) {
-  return std::filesystem::exists(hdf5) && !std::filesystem::exists(table_name(hdf5));
+/// Several processes share a table, and each computes a part of it.
+void check_for_ranks(const SweepArguments& arguments) {
+  if (!arguments.only && (arguments.out.empty() || is_stream(arguments.out)))
+    throw InputError({"--out"}, "under mpirun a file is expected, which all processes can reach");
+  if (!arguments.until.empty()) throw InputError({"--until"}, "is known of one process alone: not under mpirun");
+}
+
+/// Whether that file was completed by an earlier sweep: beside one that was not lies what it is made of.
+bool is_written(const std::string& out) {
+  const std::string table = table_name(out);
+  const bool has_table = table != out && std::filesystem::exists(table);
+  return std::filesystem::exists(out) && !has_table && !std::filesystem::exists(table + ".journal") &&
+         !SweepParts::exist(table);
 }
 
 SweepOrigin origin_of(const SweepArguments& arguments, const SweepSetup& setup) {
@@ -221,8 +230,10 @@ void check_options(const SweepArguments& arguments) {
 
 int sweep_command(const SweepArguments& arguments) {
   check_options(arguments);
+  const std::optional<Rank> rank = rank_of_environment();
+  if (rank) check_for_ranks(arguments);
   const SweepSetup setup = make_sweep(arguments);
-  if (arguments.only) return replay(arguments, setup);
+  if (arguments.only) return rank && rank->number > 0 ? kDone : replay(arguments, setup);
   std::optional<PlotFile> plot;
   if (!arguments.plot.empty()) plot.emplace(arguments.plot);
 
@@ -233,14 +244,30 @@ int sweep_command(const SweepArguments& arguments) {
       return kDone;
     }
   }
+  const bool is_there = arguments.resume && is_written(table_name(arguments.out));
+  if (rank && is_there && rank->number > 0) return kDone;
 
   let_signals_end_runs();
+  std::optional<SweepParts> parts;
+  if (rank && !is_there) {
+    parts.emplace(setup, table_name(arguments.out), *rank, arguments.resume);
+    const bool is_done = parts->compute(std::max(arguments.threads, 1), is_end_wanted);
+    if (rank->number > 0) return is_done ? kDone : kInterrupted;
+    if (!is_done || !parts->wait(is_end_wanted)) {
+      tell_error("interrupted; --resume goes on");
+      return kInterrupted;
+    }
+  }
   SweepKeeper keeper(setup, arguments);
-  if (!keeper.is_complete())
+  if (parts)
+    parts->each(keeper.next(),
+                [&](const std::string& lines, const SweepTally& tally) { keeper.take_lines(lines, tally); });
+  else if (!keeper.is_complete())
     run_sweep(
         setup.sweep, {.first = keeper.next(), .last = setup.last, .threads = arguments.threads},
         [&](SweepBlock&& block) { return keeper.take(std::move(block)); }, is_end_wanted);
   keeper.finish();
+  if (parts) parts->remove();
 
   if (is_hdf5_name(arguments.out) && keeper.is_complete()) {
     write_sweep_hdf5(arguments.out, keeper.results(), origin_of(arguments, setup));

@@ -147,6 +147,56 @@ TEST(SweepProgram, ShardsJoinToTheWhole) {
   EXPECT_EQ(run_trajet({"merge", shards[0], shards[0], "--out", merged}).exit_code, 5);
 }
 
+/// As `mpirun` starts a process.
+struct RankEnvironment {
+  RankEnvironment(int rank, const std::string& job) {
+    setenv("OMPI_COMM_WORLD_RANK", std::to_string(rank).c_str(), 1);
+    setenv("OMPI_COMM_WORLD_SIZE", "2", 1);
+    setenv("PMIX_NAMESPACE", job.c_str(), 1);
+  }
+  ~RankEnvironment() {
+    for (const char* name : {"OMPI_COMM_WORLD_RANK", "OMPI_COMM_WORLD_SIZE", "PMIX_NAMESPACE"}) unsetenv(name);
+  }
+};
+
+TEST(SweepProgram, IsComputedBySeveralProcesses) {
+  const TemporaryFolder folder;
+  const auto command = [&](const std::string& out, const std::vector<std::string>& more) {
+    std::vector<std::string> words{"sweep", kRifleShot, "--vary",   "theta=-1deg:1deg:1001", "--quiet",
+                                   "--out", out,        "--report", "t,hit,max(z)"};
+    words.insert(words.end(), more.begin(), more.end());
+    return words;
+  };
+  const std::string whole = folder.file("whole.csv"), out = folder.file("t.csv");
+  const std::string whole_json = folder.file("whole.json"), json = folder.file("t.json");
+  ASSERT_EQ(run_trajet(command(whole, {"--summary", whole_json})).exit_code, 0);
+  const std::string journal = out + ".parts/0003.csv.journal";
+  {
+    const RankEnvironment environment(1, "first/1");
+    EXPECT_EQ(run_trajet(command(out, {}), journal, SIGKILL).exit_code, 128 + SIGKILL);
+  }
+  {
+    const RankEnvironment environment(1, "second/2");
+    EXPECT_EQ(run_trajet(command(out, {})).exit_code, 5) << "what is there is not overwritten";
+    EXPECT_EQ(run_trajet(command(out, {"--resume"})).exit_code, 0);
+    EXPECT_FALSE(std::filesystem::exists(out)) << "the process of number 0 joins the parts";
+  }
+  {
+    const RankEnvironment environment(0, "second/2");
+    EXPECT_EQ(run_trajet(command(out, {"--resume", "--summary", json})).exit_code, 0);
+  }
+  EXPECT_EQ(read_text(out), read_text(whole));
+  EXPECT_EQ(read_text(json), read_text(whole_json));
+  EXPECT_FALSE(std::filesystem::exists(out + ".parts"));
+  for (const int rank : {0, 1}) {
+    const RankEnvironment environment(rank, "third/3");
+    EXPECT_EQ(run_trajet(command(out, {"--resume"})).exit_code, 0) << "nothing is left to do";
+    EXPECT_FALSE(std::filesystem::exists(out + ".parts"));
+  }
+  const RankEnvironment environment(1, "fourth/4");
+  EXPECT_EQ(run_trajet(command("-", {})).exit_code, 2);
+}
+
 TEST(SweepProgram, ReplaysOneMotion) {
   const TemporaryFolder folder;
   const std::vector<std::string> sample{"--sample", "theta=normal(0.05deg,0.03deg)", "--seed", "4"};
