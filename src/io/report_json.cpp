@@ -115,9 +115,6 @@ void write_report_json(const RunResult& result, const RunRecords& records,
   writer.array("contacts", [&](const auto& add) {
     for (const ContactSpan& contact : result.contacts) add(object(contact));
   });
-  writer.array("contacts", [&](const auto& add) {
-    for (const ContactSpan& contact : result.contacts) add(object(contact));
-  });
   writer.member("verdict", result.unresolved.empty() ? "complete" : "unresolved");
   if (!result.unresolved.empty())
     writer.array("unresolved", [&](const auto& add) {
