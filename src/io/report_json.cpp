@@ -21,20 +21,6 @@ Json object(const std::vector<NamedValue>& values) {
   return json;
 }
 
-std::string_view name(Feature feature) {
-  switch (feature) {
-    case Feature::vertex:
-      return "vertex";
-    case Feature::edge:
-      return "edge";
-    case Feature::face:
-      return "face";
-    case Feature::surface:
-      break;
-  }
-  return "surface";
-}
-
 Json object(const Impact& impact) {
   Json json = detail::impact_json(impact);
   json["angular_velocity_before"] = array(impact.angular_velocity_before);
