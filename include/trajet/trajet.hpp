@@ -10,6 +10,7 @@
 #include "trajet/io/report_json.hpp"
 #include "trajet/io/scene_file.hpp"
 #include "trajet/io/scene_overrides.hpp"
+#include "trajet/io/scene_schema.hpp"
 #include "trajet/ode/registry.hpp"
 #include "trajet/ode/solve.hpp"
 #include "trajet/scene/scene.hpp"
