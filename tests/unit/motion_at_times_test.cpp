@@ -214,6 +214,12 @@ TEST(MotionAtTimes, HandlesAndCopiesKeepItAlive) {
   const BodyMotion ball = make();
   EXPECT_EQ(ball.name(), "ball");
   EXPECT_NEAR(ball.position(0.5).z(), 3.75, kTolerance);
+  int count = 0;
+  for (const Impact& impact : motion_of("[time]\nend = 1.9\n" + kBouncing).impacts()) {
+    EXPECT_NEAR(impact.time, 1.0, kTolerance);
+    ++count;
+  }
+  EXPECT_EQ(count, 1);
 }
 
 TEST(MotionAtTimes, IsToldInAFewLines) {

@@ -38,12 +38,18 @@ class [[nodiscard]] Motion {
   RunStatus status() const { return result().status; }
   /// Whether the run has come to its end or to what was to stop it.
   bool ok() const { return status() == RunStatus::finished || status() == RunStatus::stopped; }
-  const std::vector<Impact>& impacts() const { return result().impacts; }
-  const std::vector<EventRecord>& events() const { return result().events; }
-  const std::vector<ContactSpan>& contacts() const { return result().contacts; }
-  const std::vector<std::string>& warnings() const { return result().warnings; }
+  const std::vector<Impact>& impacts() const& { return result().impacts; }
+  const std::vector<EventRecord>& events() const& { return result().events; }
+  const std::vector<ContactSpan>& contacts() const& { return result().contacts; }
+  const std::vector<std::string>& warnings() const& { return result().warnings; }
   /// All bodies and extra states at the end, with what their error may be.
-  const Sample& final() const { return result().final; }
+  const Sample& final() const& { return result().final; }
+  // Of a motion that is gone behind the expression, copies: `for (… : compute_motion(scene).impacts())` is safe.
+  std::vector<Impact> impacts() && { return result().impacts; }
+  std::vector<EventRecord> events() && { return result().events; }
+  std::vector<ContactSpan> contacts() && { return result().contacts; }
+  std::vector<std::string> warnings() && { return result().warnings; }
+  Sample final() && { return result().final; }
   double start_time() const { return result().start_time; }
   double end_time() const { return result().end_time; }
   /// All that a report has.
