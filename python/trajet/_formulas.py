@@ -25,7 +25,7 @@ class FormulaSolver:
         document = Document(self._scene(rates, start, t_span, method, args, settings))
         try:
             scene = _core.parse_scene(document.text, "")
-            limits = [(_name(each), int(each.limit)) for each in self._watched if math.isfinite(each.limit)]
+            limits = [(_name(each), int(each.limit)) for each in self._watched if 1 < each.limit < math.inf]
             self._motion = _core.compute_motion(scene, limits)
         except SceneError as error:
             raise _as_argument(error, document, fun) from None

@@ -47,6 +47,12 @@ restitution = 0.5
             assert motion.report()[key] == program(scene)[key]
 
 
+def test_numbers_of_a_dict_keep_all_their_digits(bounce):
+    place = [1 / 3, -1e-300, 123456789.12345679]
+    bounce["body"][0].update(position=np.array(place))
+    assert trajet.run(bounce).position("ball", 0.0).tolist() == place
+
+
 def test_records_are_those_of_the_report(bounce):
     bounce["event"] = [{"name": "low", "when": "ball.z - 1"}]
     motion = trajet.run(bounce)

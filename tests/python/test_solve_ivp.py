@@ -176,6 +176,31 @@ def test_terminal_by_number(law, event):
 
 
 @both
+def test_nothing_behind_the_end(law, event):
+    behind = 0.5 + 1e-6  # met in the same step
+    sol = solve_ivp(law, [0, 30], [0], t_eval=[0, 0.5, 0.6], events=[with_attributes(event(0.5), terminal=True), event(behind)])
+    assert len(sol.t_events[0]) == 1 and len(sol.t_events[1]) == 0
+    assert sol.t.tolist() == [0, 0.5] and sol.y.shape == (1, 2)
+
+
+def test_a_terminal_event_ends_the_work():
+    sol = solve_ivp(["y1", "-y0"], [0, 1e5], [0, 1], events=trajet.Event("y1", terminal=True))
+    assert sol.t[-1] == pytest.approx(np.pi / 2) and sol.nfev < 50
+
+
+@pytest.mark.parametrize("direction, expected", [(0, [1]), (1, []), (-1, [])])
+def test_an_exact_touch_has_no_direction(direction, expected):
+    sol = solve_ivp(["2*(t - 1)"], [0, 3], [1], events=trajet.Event("y0", direction=direction))  # y = (t - 1)^2
+    assert sol.t_events[0].tolist() == pytest.approx(expected)
+
+
+def test_an_event_that_changes_faster_than_the_steps():
+    sol = solve_ivp(lambda t, y: [0.0], [0, 10], [0.0], events=lambda t, y: np.sin(40 * t + 0.1))
+    exact = (np.pi * np.arange(1, 200) - 0.1) / 40
+    assert sol.t_events[0] == pytest.approx(exact[exact < 10], abs=1e-12)
+
+
+@both
 def test_backward(law, event):
     sol = solve_ivp(law, [6, 0], [np.sin(6)], events=with_attributes(event(0.5), terminal=2), dense_output=True)
     assert sol.t_events[0] == pytest.approx([5 * np.pi / 6, np.pi / 6], abs=1e-8)
