@@ -6,7 +6,7 @@ CONFIGURE := cmake -DTRAJET_WERROR=$(WERROR) >/dev/null --preset
 BUILD     := cmake --build --parallel $(JOBS) --preset
 DEMO      := build/demo
 
-.PHONY: help setup build demo docs test asan clang tidy bench scaling format
+.PHONY: help setup build demo python docs test asan clang tidy bench scaling format
 .DEFAULT_GOAL := help
 
 help: ## list these targets
@@ -23,6 +23,11 @@ demo: setup build ## set up, build, and fly the rifle shot; its files go to buil
 	@mkdir -p $(DEMO)
 	build/release/trajet run examples/notes/rifle_shot.toml --json $(DEMO)/rifle_shot.json --csv $(DEMO)/rifle_shot.csv
 
+python: setup ## the Python package: PYTHONPATH=build/release/python
+	@scripts/setup python
+	@$(CONFIGURE) release -DTRAJET_PYTHON=ON
+	@$(BUILD) release --target trajet_python
+
 docs: setup build ## remake the pages and the gallery of docs/: outputs and pictures
 	@for page in README.md docs/first_scene.md docs/cookbook.md docs/notes/*.md; do python3 -B tests/docs/readme.py refresh $$page build/release/trajet; done
 	@scripts/setup browser
@@ -30,7 +35,8 @@ docs: setup build ## remake the pages and the gallery of docs/: outputs and pict
 
 test: setup ## set up, build, and run all tests
 	-@scripts/setup browser
-	@$(CONFIGURE) release
+	@scripts/setup python
+	@$(CONFIGURE) release -DTRAJET_PYTHON=ON
 	@$(BUILD) release
 	@scripts/run_tests build/release
 

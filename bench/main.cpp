@@ -163,6 +163,7 @@ int main(int argc, char** argv) {
   trajet::bench::add_rifle_shot();
   trajet::bench::add_boxes();
   trajet::bench::add_turning_contacts();
+  trajet::bench::add_motions();
   trajet::bench::add_bullet();
   trajet::bench::add_ode();
   trajet::bench::Collector collector;

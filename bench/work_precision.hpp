@@ -53,6 +53,7 @@ void add_scenes();
 void add_rifle_shot();
 void add_boxes();
 void add_turning_contacts();
+void add_motions();
 void add_odeint();
 void add_gsl();
 void add_sundials();

@@ -202,6 +202,7 @@ void CommandLine::add_sweep() {
 
 void CommandLine::add_lists() {
   add_command("methods", "list the integration methods", [] { return methods_command(); });
+  add_command("schema", "print the JSON Schema of scene files, for editors", [] { return schema_command(); });
   add_command("verify", "compute published numbers anew and compare", [] { return verify_command(); });
   add_command("examples", "list the built-in scenes, or print one", [this] {
     return examples_command(example_);

@@ -72,6 +72,8 @@ int compare_command(const CompareArguments& arguments);
 /// Computes published numbers anew and prints ours beside them; kNumbersFailed if one differs.
 int verify_command();
 int methods_command();
+/// Prints the JSON Schema of scene files.
+int schema_command();
 /// Lists the built-in scenes, or prints the one of that name.
 int examples_command(const std::string& name);
 /// Prints what makes a shell complete the options of `app`.

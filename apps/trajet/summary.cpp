@@ -8,8 +8,8 @@
 
 #include "terminal.hpp"
 #include "text_table.hpp"
-#include "trajet/sim/names.hpp"
 #include "trajet/portable.hpp"
+#include "trajet/sim/names.hpp"
 
 namespace trajet {
 

@@ -21,20 +21,6 @@ Json object(const std::vector<NamedValue>& values) {
   return json;
 }
 
-std::string_view name(Feature feature) {
-  switch (feature) {
-    case Feature::vertex:
-      return "vertex";
-    case Feature::edge:
-      return "edge";
-    case Feature::face:
-      return "face";
-    case Feature::surface:
-      break;
-  }
-  return "surface";
-}
-
 Json object(const Impact& impact) {
   Json json = detail::impact_json(impact);
   json["angular_velocity_before"] = array(impact.angular_velocity_before);
@@ -111,9 +97,6 @@ void write_report_json(const RunResult& result, const RunRecords& records,
                [&](const auto& add) { records.each_impact([&](const Impact& impact) { add(object(impact)); }); });
   writer.array("events", [&](const auto& add) {
     records.each_event([&](const EventRecord& event) { add(detail::event_json(event)); });
-  });
-  writer.array("contacts", [&](const auto& add) {
-    for (const ContactSpan& contact : result.contacts) add(object(contact));
   });
   writer.array("contacts", [&](const auto& add) {
     for (const ContactSpan& contact : result.contacts) add(object(contact));

@@ -1,17 +1,16 @@
 #include <array>
 
 #include "scene_solids.hpp"
+#include "scene_tables.hpp"
 
 namespace trajet::detail {
 
 namespace {
 
-using Keys = std::vector<std::string_view>;
-
 /// Shapes of bodies: one row each, with the keys that describe them.
 struct BodyKind {
   std::string_view name;
-  Keys keys;
+  Names keys;  // without `rounding`
   ShapeDefinition (*read)(const TableReader&);
 };
 
@@ -33,6 +32,14 @@ const std::array<BodyKind, 11>& body_kinds() {
       {"mesh", {"file", "scale"}, [](Table t) { return ShapeDefinition(read_mesh_shape(t)); }},
   }};
   return kinds;
+}
+
+/// All keys of a shape but `scale` and the default of `shape` are needed.
+Names required_keys(const Names& keys) {
+  Names required;
+  for (const std::string_view key : keys)
+    if (key != "scale") required.push_back(key);
+  return required;
 }
 
 const BodyKind& read_kind(const TableReader& table) {
@@ -83,36 +90,21 @@ void read_points(const TableReader& table, BodyDefinition& body) {
 
 }  // namespace
 
+std::vector<ShapeKind> body_shapes() {
+  std::vector<ShapeKind> shapes;
+  for (const BodyKind& kind : body_kinds()) {
+    // a hull's corners stand where other bodies have points by name
+    const Names keys = kind.name == "hull" ? Names{"points"} : kind.keys;
+    shapes.push_back({kind.name, keys + Names{"rounding"}, required_keys(keys)});
+  }
+  return shapes;
+}
+
 BodyDefinition read_body(const TableReader& table) {
   const BodyKind& kind = read_kind(table);
   if (kind.name == "point" && table.has("radius"))
     table.fail("radius", "a point has no radius; for one, write shape = \"sphere\"");
-  Keys keys = {"name",
-               "shape",
-               "position",
-               "velocity",
-               "acceleration",
-               "force",
-               "mass",
-               "density",
-               "position_rate",
-               "orientation",
-               "angular_velocity",
-               "angular_velocity_body",
-               "angular_acceleration",
-               "angular_acceleration_body",
-               "torque",
-               "torque_body",
-               "force_point",
-               "inertia",
-               "points",
-               "rounding",
-               "restitution",
-               "collides_with",
-               "color"};
-  keys.insert(keys.end(), kind.keys.begin(), kind.keys.end());
-  keys.insert(keys.end(), kFrictionKeys.begin(), kFrictionKeys.end());
-  table.check_keys(keys);
+  table.check_keys(names(body_keys()) + Names{"shape", "rounding"} + kind.keys + names(friction_keys()));
 
   BodyDefinition body;
   body.where = table.where("name");

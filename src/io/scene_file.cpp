@@ -8,6 +8,7 @@
 #include <system_error>
 
 #include "scene_solids.hpp"
+#include "scene_tables.hpp"
 #include "table_runs.hpp"
 #include "toml_document.hpp"
 #include "value_reader.hpp"
@@ -39,16 +40,14 @@ class SceneReader {
   }
 
   Scene read() {
-    constexpr std::array<std::string_view, 11> kKeys{"title",    "up",   "parameters", "time",  "method", "body",
-                                                     "obstacle", "pair", "state",      "event", "exact"};
-    constexpr std::array<std::string_view, 2> kUpAxes{"y", "z"};
+    const detail::Keys keys = detail::scene_keys();
     const TableReader root = reader(document_);
-    root.check_keys(kKeys);
+    root.check_keys(detail::names(keys));
 
     Scene scene;
     scene.file = document_.file().str();
     if (root.has("title")) scene.title = root.text("title");
-    scene.up = std::array{UpAxis::y, UpAxis::z}[root.choice("up", kUpAxes, 1)];
+    scene.up = std::array{UpAxis::y, UpAxis::z}[root.choice("up", detail::words(keys, "up"), 1)];
     if (root.has("parameters")) scene.parameters = named_formulas(root.subtable("parameters").titled("[parameters]"));
     if (!root.has("time")) throw InputError(root.where(), "the scene lacks the table [time] with the key 'end'");
     scene.time = read_time(root.subtable("time").titled("[time]"));
@@ -174,8 +173,7 @@ class SceneReader {
   }
 
   static TimeOptions read_time(const TableReader& table) {
-    constexpr std::array<std::string_view, 3> kKeys{"start", "end", "sample"};
-    table.check_keys(kKeys);
+    table.check_keys(detail::names(detail::time_keys()));
     TimeOptions time;
     if (table.has("start")) time.start = table.scalar("start", kTime);
     time.end = table.scalar("end", kTime);
@@ -184,11 +182,8 @@ class SceneReader {
   }
 
   static MethodOptions read_method(const TableReader& table) {
-    constexpr std::array<std::string_view, 11> kKeys{"name",        "rtol",        "atol",  "step",
-                                                     "steps",       "max_step",    "order", "max_steps",
-                                                     "max_seconds", "orientation", "locate"};
-    constexpr std::array<std::string_view, 3> kLocators{"polynomial", "interpolation", "subdivision"};
-    table.check_keys(kKeys);
+    const detail::Keys keys = detail::method_keys();
+    table.check_keys(detail::names(keys));
     MethodOptions method;
     method.where = table.where("name");
     if (table.has("name")) method.name = table.text("name");
@@ -212,35 +207,34 @@ class SceneReader {
     method.orientation =
         alias != nullptr ? alias->way : orientation_ways()[table.choice("orientation", orientations, 0)].way;
     method.locate = std::array{Locator::polynomial, Locator::interpolation,
-                               Locator::subdivision}[table.choice("locate", kLocators, 0)];
+                               Locator::subdivision}[table.choice("locate", detail::words(keys, "locate"), 0)];
     return method;
   }
 
   static StateDefinition read_state(const TableReader& table) {
-    constexpr std::array<std::string_view, 3> kKeys{"name", "value", "rate"};
-    table.check_keys(kKeys);
+    table.check_keys(detail::names(detail::state_keys()));
     return {table.text("name"), table.scalar("value", std::nullopt), table.scalar("rate", std::nullopt),
             table.where("name")};
   }
 
   EventDefinition read_event(const TableReader& table) const {
-    constexpr std::array<std::string_view, 5> kKeys{"name", "when", "direction", "action", "set"};
-    constexpr std::array<std::string_view, 3> kDirections{"rising", "falling", "any"};
-    constexpr std::array<std::string_view, 3> kActions{"record", "stop", "set"};
-    table.check_keys(kKeys);
+    const detail::Keys keys = detail::event_keys();
+    table.check_keys(detail::names(keys));
     EventDefinition event{
         table.text("name"), table.scalar("when", std::nullopt), CrossingDirection::any, EventAction::record, {},
         table.where("name")};
-    event.direction = std::array{CrossingDirection::rising, CrossingDirection::falling,
-                                 CrossingDirection::any}[table.choice("direction", kDirections, 2)];
+    event.direction =
+        std::array{CrossingDirection::rising, CrossingDirection::falling,
+                   CrossingDirection::any}[table.choice("direction", detail::words(keys, "direction"), 2)];
 
     // Both `set = {…}` and `action = {set = {…}}` are read.
     const bool nested = table.has("action") && table.table().get("action")->is_table();
     const TableReader holder = nested ? table.subtable("action") : table;
     if (nested) holder.check_keys(std::array<std::string_view, 1>{"set"});
     const std::size_t default_action = table.has("set") ? 2 : 0;
-    event.action = std::array{EventAction::record, EventAction::stop,
-                              EventAction::set}[nested ? 2 : table.choice("action", kActions, default_action)];
+    event.action = std::array{
+        EventAction::record, EventAction::stop,
+        EventAction::set}[nested ? 2 : table.choice("action", detail::words(keys, "action"), default_action)];
     if (nested && table.has("set")) table.fail("set", "'set' stands beside another one in 'action'");
     if (event.action == EventAction::set)
       event.set = named_formulas(holder.subtable("set"));

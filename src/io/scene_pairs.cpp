@@ -1,37 +1,37 @@
 #include <array>
 
 #include "scene_solids.hpp"
+#include "scene_tables.hpp"
 #include "trajet/portable.hpp"
 
 namespace trajet::detail {
 
 namespace {
 
-constexpr std::array<std::string_view, 3> kOnHit{"stop", "bounce", "pass"};
 constexpr std::array<std::string_view, 1> kPlannedOnHit{"stick"};
 
 }  // namespace
 
 OnHit read_on_hit(const TableReader& table) {
-  return std::array{OnHit::stop, OnHit::bounce, OnHit::pass}[table.choice("on_hit", kOnHit, 0, kPlannedOnHit)];
+  return std::array{OnHit::stop, OnHit::bounce,
+                    OnHit::pass}[table.choice("on_hit", words(obstacle_keys(), "on_hit"), 0, kPlannedOnHit)];
 }
 
 std::shared_ptr<const FrictionDefinition> read_friction(const TableReader& table) {
-  constexpr std::array<std::string_view, 3> kLaws{"stronge", "poisson", "newton"};
-  if (ranges::none_of(kFrictionKeys, [&](std::string_view key) { return table.has(key); })) return nullptr;
+  const Keys keys = friction_keys();
+  if (ranges::none_of(keys, [&](const Key& key) { return table.has(key.name); })) return nullptr;
   FrictionDefinition friction{table.optional_scalar("friction", kDimensionless),
                               table.optional_scalar("tangential_restitution", kDimensionless),
                               table.optional_scalar("rolling_friction", kLength),
                               table.optional_scalar("spinning_friction", kLength)};
   if (table.has("impact"))
-    friction.impact =
-        std::array{ImpactLaw::stronge, ImpactLaw::poisson, ImpactLaw::newton}[table.choice("impact", kLaws, 0)];
+    friction.impact = std::array{ImpactLaw::stronge, ImpactLaw::poisson,
+                                 ImpactLaw::newton}[table.choice("impact", words(keys, "impact"), 0)];
   return std::make_shared<const FrictionDefinition>(std::move(friction));
 }
 
 CollidesWith read_collides_with(const TableReader& table) {
   using Kind = CollidesWith::Kind;
-  constexpr std::array<std::string_view, 3> kKinds{"all", "obstacles", "none"};
   CollidesWith result;
   if (!table.has("collides_with")) return result;
   result.where = table.where("collides_with");
@@ -39,15 +39,14 @@ CollidesWith read_collides_with(const TableReader& table) {
     result.kind = Kind::listed;
     result.names = table.texts("collides_with");
   } else {
-    result.kind = std::array{Kind::all, Kind::obstacles, Kind::none}[table.choice("collides_with", kKinds, 0)];
+    result.kind = std::array{Kind::all, Kind::obstacles,
+                             Kind::none}[table.choice("collides_with", words(body_keys(), "collides_with"), 0)];
   }
   return result;
 }
 
 PairDefinition read_pair(const TableReader& table) {
-  std::vector<std::string_view> keys{"of", "on_hit", "restitution"};
-  keys.insert(keys.end(), kFrictionKeys.begin(), kFrictionKeys.end());
-  table.check_keys(keys);
+  table.check_keys(detail::names(pair_keys()) + detail::names(friction_keys()));
   const std::vector<std::string> names = table.texts("of");
   if (names.size() != 2) table.fail("of", "'of': two names expected, got " + std::to_string(names.size()));
   PairDefinition pair{.first = names[0], .second = names[1]};

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "mesh_file.hpp"
+#include "scene_tables.hpp"
 
 #include "trajet/portable.hpp"
 
@@ -13,9 +14,8 @@ namespace trajet::detail {
 OrientationDefinition read_orientation(const TableReader& table) {
   OrientationDefinition orientation;
   orientation.where = table.where();
-  constexpr std::array<std::string_view, 7> kKeys{"axis", "angle", "quaternion", "matrix", "roll", "pitch", "yaw"};
   constexpr std::array<std::string_view, 3> kAngles{"roll", "pitch", "yaw"};
-  table.check_keys(kKeys);
+  table.check_keys(names(orientation_keys()));
   const bool by_angle = table.has("axis") || table.has("angle");
   const bool by_angles = ranges::any_of(kAngles, [&](std::string_view key) { return table.has(key); });
   const int forms = int{by_angle} + int{table.has("quaternion")} + int{table.has("matrix")} + int{by_angles};
@@ -69,13 +69,6 @@ ShapeDefinition read_hull(const TableReader& table) { return HullShape{table.vec
 
 namespace {
 
-using Keys = std::vector<std::string_view>;
-
-Keys operator+(Keys a, const Keys& b) {
-  a.insert(a.end(), b.begin(), b.end());
-  return a;
-}
-
 ShapeDefinition read_plane(const TableReader& table) { return PlaneShape{table.vector("normal", kDimensionless)}; }
 
 ShapeDefinition read_disk(const TableReader& table) {
@@ -108,7 +101,7 @@ struct ObstacleKind {
   std::string_view name;
   std::string_view center;  ///< the key that says where it is; none: its own keys say so
   bool needs_center;
-  Keys keys;  ///< that describe it, without `center`
+  Names keys;  ///< that describe it, without `center`
   ShapeDefinition (*read)(const TableReader&);
 };
 
@@ -136,11 +129,54 @@ const std::array<ObstacleKind, 14>& obstacle_kinds() {
   return kinds;
 }
 
+template <std::size_t Count>
+bool is_among(const std::array<std::string_view, Count>& shapes, std::string_view shape) {
+  return ranges::find(shapes, shape) != shapes.end();
+}
+
+/// The keys of an obstacle of that shape that not all obstacles have.
+Names all_keys(const ObstacleKind& kind) {
+  Names keys = kind.keys;
+  if (!kind.center.empty()) keys.push_back(kind.center);
+  // a plane is the same however it turns about its normal: its `normal` says it all
+  if (kind.name != "plane") keys.push_back("orientation");
+  if (is_among(kHollow, kind.name)) keys.push_back("inside");
+  if (is_among(kRounded, kind.name)) keys.push_back("rounding");
+  return keys;
+}
+
+Names required_keys(const ObstacleKind& kind) {
+  Names required;
+  for (const std::string_view key : kind.keys)
+    if (key != "scale") required.push_back(key);
+  if (kind.needs_center) required.push_back(kind.center);
+  return required;
+}
+
 /// Shapes of the parts of a compound: solids.
 constexpr std::array<std::string_view, 8> kParts{"sphere", "box",       "cylinder", "capsule",
                                                  "cone",   "ellipsoid", "hull",     "mesh"};
 
 }  // namespace
+
+std::vector<ShapeKind> obstacle_shapes() {
+  std::vector<ShapeKind> shapes;
+  for (const ObstacleKind& kind : obstacle_kinds()) shapes.push_back({kind.name, all_keys(kind), required_keys(kind)});
+  return shapes;
+}
+
+std::vector<ShapeKind> part_shapes() {
+  std::vector<ShapeKind> shapes;
+  for (const ObstacleKind& kind : obstacle_kinds()) {
+    if (!is_among(kParts, kind.name)) continue;
+    Names keys = kind.keys + Names{"mass", "density"};
+    if (is_among(kRounded, kind.name)) keys.push_back("rounding");
+    Names required = required_keys(kind);
+    std::erase(required, kind.center);
+    shapes.push_back({kind.name, keys, required});
+  }
+  return shapes;
+}
 
 std::vector<PartDefinition> read_parts(const TableReader& table, bool have_masses) {
   std::vector<PartDefinition> parts;
@@ -148,10 +184,10 @@ std::vector<PartDefinition> read_parts(const TableReader& table, bool have_masse
     if (!each.has("shape")) throw InputError(each.where(), "a part of a compound lacks the key 'shape'");
     const std::string_view shape = kParts[each.choice("shape", kParts, 0)];
     const ObstacleKind& kind = *ranges::find(obstacle_kinds(), shape, &ObstacleKind::name);
-    const bool may_be_round = ranges::find(kRounded, shape) != kRounded.end();
+    const bool may_be_round = is_among(kRounded, shape);
     each.titled("a part of shape " + std::string(shape))
-        .check_keys(Keys{"shape", "position", "orientation"} + kind.keys + (may_be_round ? Keys{"rounding"} : Keys{}) +
-                    (have_masses ? Keys{"mass", "density"} : Keys{}));
+        .check_keys(Names{"shape"} + names(part_keys()) + kind.keys + (may_be_round ? Names{"rounding"} : Names{}) +
+                    (have_masses ? Names{"mass", "density"} : Names{}));
     PartDefinition part{.shape = kind.read(each)};
     part.where = each.where();
     part.rounding = each.optional_scalar("rounding", kLength);
@@ -170,17 +206,10 @@ ObstacleDefinition read_obstacle(const TableReader& table) {
   if (!table.has("shape")) throw InputError(table.where(), table.title() + " lacks the key 'shape'");
   const ObstacleKind& kind = obstacle_kinds()[table.choice("shape", shapes, 0)];
 
-  const Keys common = {"name", "shape", "on_hit", "restitution", "color", "velocity", "angular_velocity"};
-  const Keys friction(kFrictionKeys.begin(), kFrictionKeys.end());
   const std::string with_shape = table.title() + " of shape " + std::string(kind.name);
   TableReader titled = table.titled(with_shape);
   const bool has_center = !kind.center.empty();
-  // a plane is the same however it turns about its normal: its `normal` says it all
-  const Keys turned = kind.name == "plane" ? Keys{} : Keys{"orientation"};
-  const bool may_be_hollow = ranges::find(kHollow, kind.name) != kHollow.end();
-  const bool may_be_round = ranges::find(kRounded, kind.name) != kRounded.end();
-  titled.check_keys(common + friction + (has_center ? Keys{kind.center} : Keys{}) + kind.keys + turned +
-                    (may_be_hollow ? Keys{"inside"} : Keys{}) + (may_be_round ? Keys{"rounding"} : Keys{}));
+  titled.check_keys(Names{"shape"} + names(obstacle_keys()) + names(friction_keys()) + all_keys(kind));
 
   ObstacleDefinition obstacle{.name = table.text("name"), .shape = PointShape{}};
   obstacle.where = table.where("name");

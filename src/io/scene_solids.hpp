@@ -1,8 +1,6 @@
 #pragma once
 
-#include <array>
 #include <memory>
-#include <string_view>
 
 #include "trajet/scene/scene.hpp"
 #include "value_reader.hpp"
@@ -31,10 +29,7 @@ std::vector<PartDefinition> read_parts(const TableReader& table, bool have_masse
 /// What the key `on_hit` says: stop, where there is none.
 OnHit read_on_hit(const TableReader& table);
 
-/// The keys of a surface's friction.
-inline constexpr std::array<std::string_view, 5> kFrictionKeys{"friction", "tangential_restitution", "rolling_friction",
-                                                               "spinning_friction", "impact"};
-/// What they say; none, where there is none.
+/// What the keys of a surface's friction say; none, where there is none.
 std::shared_ptr<const FrictionDefinition> read_friction(const TableReader& table);
 
 /// What the key `collides_with` of a body says: a word, or an array of names.

@@ -3,13 +3,21 @@
 #include "trajet/rigid/kinematics.hpp"
 
 namespace trajet {
+Quaternion reported_orientation(const OrientationLayout& layout, const double* part) {
+  if (layout.way == OrientationWay::matrix) return from_rotation_matrix(nearest_rotation(layout.matrix(part)));
+  return layout.quaternion(part);
+}
+
+Vector3 in_world(const OrientationLayout& layout, const double* part, const Vector3& v) {
+  return layout.frame == Frame::world ? v : Vector3(layout.rotation(part) * v);
+}
+
 namespace {
 
 /// A vector that the state, or its rate, holds behind the orientation, in the world's frame.
 Vector3 in_world(const World::Rotation& rotation, const Eigen::VectorXd& q, const Eigen::VectorXd& holder) {
-  const Vector3 v = holder.segment<3>(rotation.offset + rotation.layout.size());
-  if (rotation.layout.frame == Frame::world) return v;
-  return rotation.layout.rotation(q.data() + rotation.offset) * v;
+  return in_world(rotation.layout, q.data() + rotation.offset,
+                  holder.segment<3>(rotation.offset + rotation.layout.size()));
 }
 
 }  // namespace
@@ -35,9 +43,7 @@ BodyState body_state(const World::Body& body, const Eigen::VectorXd& q, const Ei
     const double* part = q.data() + rotation.offset;
     state.turns = true;
     state.rotation_matrix = rotation.layout.matrix(part);
-    state.orientation = rotation.layout.way == OrientationWay::matrix
-                            ? from_rotation_matrix(nearest_rotation(state.rotation_matrix))
-                            : rotation.layout.quaternion(part);
+    state.orientation = reported_orientation(rotation.layout, part);
     state.angular_velocity = angular_velocity(body, q);
   } else {
     state.rotation_matrix = rotation_matrix(body.q_WB);

@@ -13,4 +13,9 @@ Vector3 angular_velocity(const World::Body& body, const Eigen::VectorXd& q);
 /// Its angular acceleration where the group's state has the rate dq, world frame, rad/s^2.
 Vector3 angular_acceleration(const World::Body& body, const Eigen::VectorXd& q, const Eigen::VectorXd& dq);
 
+/// The quaternion that the numbers of an orientation stand for; of a matrix that has drifted the nearest rotation.
+Quaternion reported_orientation(const OrientationLayout& layout, const double* part);
+/// A vector that stands in the layout's frame, in the world's; `part` are the numbers of the orientation.
+Vector3 in_world(const OrientationLayout& layout, const double* part, const Vector3& v);
+
 }  // namespace trajet

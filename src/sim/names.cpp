@@ -34,4 +34,18 @@ std::string_view name(ImpactKind kind) {
   return "";
 }
 
+std::string_view name(Feature feature) {
+  switch (feature) {
+    case Feature::vertex:
+      return "vertex";
+    case Feature::edge:
+      return "edge";
+    case Feature::face:
+      return "face";
+    case Feature::surface:
+      break;
+  }
+  return "surface";
+}
+
 }  // namespace trajet

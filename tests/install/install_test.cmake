@@ -1,6 +1,6 @@
 # Installs a build, then builds and runs a project that finds it with find_package(trajet).
 #
-#   cmake -DBUILD=... -DWORK=... -DSOURCE=... -DCXX=... -DFLAGS=... -DVERSION=... -P install_test.cmake
+#   cmake -DBUILD=... -DWORK=... -DSOURCE=... -DCXX=... -DFLAGS=... -DVERSION=... -DPYTHON=... -P install_test.cmake
 cmake_minimum_required(VERSION 3.25)
 
 function(run)
@@ -25,6 +25,13 @@ expect("trajet ${VERSION}: agree, landed" ${WORK}/build/core)
 expect("1 impact at 3 s, reported" ${WORK}/build/scene)
 set(trajet ${WORK}/installed/bin/trajet)
 expect("trajet ${VERSION}" ${trajet} --version)
+
+# the Python package, if there is one
+if(PYTHON)
+  file(GLOB folder ${WORK}/installed/lib/python*/site-packages)
+  expect("${VERSION} finished" ${CMAKE_COMMAND} -E env PYTHONPATH=${folder} ${PYTHON} -B -c
+    "import trajet; print(trajet.__version__, trajet.run('[time]\\nend = 1\\n[[body]]\\nname = \"a\"').status)")
+endif()
 
 # the documents, examples, manual and completions come along
 set(documents ${WORK}/installed/share/doc/trajet)

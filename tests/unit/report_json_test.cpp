@@ -44,6 +44,14 @@ TEST(ReportJson, IsHandedOnInPartsThatDoNotGrowWithTheImpacts) {
   }
 }
 
+TEST(ReportJson, SaysEachThingOnce) {
+  const std::string text = report_json(result_with_impacts(1));
+  for (const auto& [key, value] : nlohmann::json::parse(text).items()) {
+    const std::string member = "\n  \"" + key + "\":";
+    EXPECT_EQ(text.find(member), text.rfind(member)) << key;
+  }
+}
+
 TEST(ReportJson, OfAFailedRunIsAWholeDocument) {
   const auto json = nlohmann::json::parse(report_json(result_with_impacts(3)));
   EXPECT_EQ(json["status"], "failed");

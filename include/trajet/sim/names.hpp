@@ -10,5 +10,7 @@ namespace trajet {
 std::string_view name(RunStatus status);
 /// The word for it in reports: `hit`, `graze`, `rest`, `leave`.
 std::string_view name(ImpactKind kind);
+/// The word for it in reports: `vertex`, `edge`, `face`, `surface`.
+std::string_view name(Feature feature);
 
 }  // namespace trajet
