@@ -29,8 +29,10 @@ expect("trajet ${VERSION}" ${trajet} --version)
 # the Python package, if there is one
 if(PYTHON)
   file(GLOB folder ${WORK}/installed/lib/python*/site-packages)
-  expect("${VERSION} finished" ${CMAKE_COMMAND} -E env PYTHONPATH=${folder} ${PYTHON} -B -c
-    "import trajet; print(trajet.__version__, trajet.run('[time]\\nend = 1\\n[[body]]\\nname = \"a\"').status)")
+  file(WRITE ${WORK}/package.py "import trajet
+print(trajet.__version__, trajet.run({'time': {'end': 1}, 'body': [{'name': 'a'}]}).status)
+")
+  expect("${VERSION} finished" ${CMAKE_COMMAND} -E env PYTHONPATH=${folder} ${PYTHON} -B ${WORK}/package.py)
 endif()
 
 # the documents, examples, manual and completions come along
