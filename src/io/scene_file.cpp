@@ -184,10 +184,11 @@ class SceneReader {
   }
 
   static MethodOptions read_method(const TableReader& table) {
-    constexpr std::array<std::string_view, 11> kKeys{"name",        "rtol",        "atol",  "step",
-                                                     "steps",       "max_step",    "order", "max_steps",
-                                                     "max_seconds", "orientation", "locate"};
+    constexpr std::array<std::string_view, 12> kKeys{"name",        "rtol",        "atol",   "step",
+                                                     "steps",       "max_step",    "order",  "max_steps",
+                                                     "max_seconds", "orientation", "locate", "simultaneous"};
     constexpr std::array<std::string_view, 3> kLocators{"polynomial", "interpolation", "subdivision"};
+    constexpr std::array<std::string_view, 2> kSimultaneous{"reflections", "group"};
     table.check_keys(kKeys);
     MethodOptions method;
     method.where = table.where("name");
@@ -213,6 +214,8 @@ class SceneReader {
         alias != nullptr ? alias->way : orientation_ways()[table.choice("orientation", orientations, 0)].way;
     method.locate = std::array{Locator::polynomial, Locator::interpolation,
                                Locator::subdivision}[table.choice("locate", kLocators, 0)];
+    method.simultaneous =
+        std::array{Simultaneous::reflections, Simultaneous::group}[table.choice("simultaneous", kSimultaneous, 0)];
     return method;
   }
 

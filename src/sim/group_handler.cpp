@@ -1,0 +1,204 @@
+#include "group_handler.hpp"
+
+#include <map>
+#include <set>
+
+#include "body_bounce.hpp"
+#include "body_state.hpp"
+#include "contact_handler.hpp"
+#include "group_bounce.hpp"
+#include "impact_record.hpp"
+#include "impact_sides.hpp"
+#include "ties.hpp"
+#include "trajet/collide/sustain/rest.hpp"
+
+namespace trajet {
+namespace {
+
+Pair as_pair(const GroupedContact& contact) {
+  return {.id = {contact.first, contact.obstacle}, .is_lasting = contact.is_lasting, .contact = contact.contact};
+}
+Meeting as_meeting(const GroupedContact& contact) {
+  return {.id = {contact.first, contact.second}, .contact = contact.contact};
+}
+
+/// What is known of a pair behind an impact at time t, from which it does not go through.
+ContactMemory memory_behind(const ContactResult& contact, double t) {
+  ContactMemory memory = rebounded(contact.memory);
+  memory.contact_time = t;
+  return memory;
+}
+
+}  // namespace
+
+bool GroupHandler::handle(int course, const Pair& met) {
+  return handle(course, {.first = met.id.body,
+                         .obstacle = met.id.obstacle,
+                         .contact = met.contact,
+                         .surface = run_.world().surface(met.id.body, met.id.obstacle),
+                         .is_met = true});
+}
+
+bool GroupHandler::handle(int course, const Meeting& met) {
+  return handle(course, {.first = met.id.first,
+                         .second = met.id.second,
+                         .contact = met.contact,
+                         .surface = run_.world().surface_of_bodies(met.id.first, met.id.second),
+                         .is_met = true});
+}
+
+bool GroupHandler::handle(int index, const GroupedContact& seed) {
+  const std::vector<GroupedContact> contacts = contacts_at_once(run_, seed);
+  // what rubs is resolved one by one, each by the law of one contact, none of which gains energy
+  const auto rubs = [](const GroupedContact& contact) { return friction_of(contact.surface).acts(); };
+  if (contacts.size() == 1 || ranges::any_of(contacts, rubs)) return false;
+  const World& world = run_.world();
+  const double t = seed.contact.time;
+  std::set<int> bodies;
+  std::map<int, Instant> instants;
+  for (const GroupedContact& contact : contacts)
+    for (const int each : {contact.first, contact.second})
+      if (each >= 0) bodies.insert(each);
+  for (const int each : bodies) {
+    const int course = run_.course_of(each);
+    instants.try_emplace(course, run_.course(course), t);
+  }
+  std::vector<std::optional<FrameMotion>> surfaces;
+  for (const GroupedContact& contact : contacts)
+    surfaces.push_back(contact.second < 0 ? run_.encounters().frame(contact.obstacle, t) : std::nullopt);
+  GroupBounce bounce(world, contacts, instants, std::move(surfaces));
+  const GroupResponse& response = bounce.response();
+  // that of the seed alone is resolved by itself
+  const bool is_alone = response.status == GroupResponse::Status::resolved &&
+                        ranges::all_of(response.rounds, [](const GroupRound& round) {
+                          return round.pushing.empty() || round.pushing == std::vector<int>{0};
+                        });
+  if (is_alone) return false;
+
+  // at one instant, events come first, those of the other courses too
+  for (const auto& [other, instant] : instants) {
+    if (other == index || !run_.has_event_at(other, t)) continue;
+    run_.enqueue(index);
+    run_.handle_event(other, t);
+    return true;
+  }
+  for (const int each : bodies) run_.recorder().sample(t, each, SamplePhase::before);
+  if (const std::string failure = describe_failure(contacts, bounce); !failure.empty()) {
+    run_.fail(t, failure);
+    return true;
+  }
+  std::map<int, Eigen::MatrixXd> errors;
+  for (const auto& [course, instant] : instants) errors[course] = run_.course(course).error_columns(t);
+  bounce.apply(errors);
+  const std::vector<Impact> all = impacts(contacts, bounce, instants);
+  std::vector<Impact> pushing;
+  for (std::size_t i = 0; i < contacts.size(); ++i)
+    if (response.impulses[i] > 0.0) pushing.push_back(all[i]);
+  run_.recorder().impacts(pushing);
+  if (!settle(contacts, all, bounce, instants)) return true;
+
+  bool stops = false;
+  std::set<int> settled;
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    const GroupedContact& contact = contacts[i];
+    if (contact.second >= 0 || !contact.is_met || !settled.insert(contact.first).second) continue;
+    Instant& instant = instants.at(run_.course_of(contact.first));
+    stops =
+        settle_other_contacts(world, run_.encounters(), as_pair(contact), all[i], instant, run_.recorder()) || stops;
+  }
+  for (const GroupedContact& contact : contacts)
+    if (contact.second < 0 && !contact.is_lasting)
+      instants.at(run_.course_of(contact.first))
+          .memories.push_back({{contact.first, contact.obstacle}, memory_behind(contact.contact, t)});
+  for (const auto& [course, instant] : instants) run_.go_on(course, instant);
+  for (const GroupedContact& contact : contacts)
+    if (contact.second >= 0)
+      run_.meetings().remember({contact.first, contact.second}, memory_behind(contact.contact, t));
+  for (const int each : bodies) run_.recorder().sample(t, each, SamplePhase::after);
+  run_.lasting_contacts().record_until(t);
+  if (stops) {
+    run_.stop();
+    return true;
+  }
+  for (const auto& [course, instant] : instants) run_.advance(course);
+  return true;
+}
+
+std::string GroupHandler::names(const GroupedContact& contact) const {
+  const std::string& other = contact.second >= 0
+                                 ? body(contact.second).name
+                                 : run_.world().obstacles[static_cast<std::size_t>(contact.obstacle)].name;
+  return "'" + body(contact.first).name + "' with '" + other + "'";
+}
+
+std::string GroupHandler::describe_failure(const std::vector<GroupedContact>& contacts,
+                                           const GroupBounce& bounce) const {
+  const GroupResponse& response = bounce.response();
+  if (response.status == GroupResponse::Status::jammed)
+    return "body '" + body(contacts.front().first).name +
+           "' is jammed: no velocity is left that all let it have which it touches at this instant, " +
+           names(contacts.front()) + " among them";
+  if (response.status != GroupResponse::Status::impossible) return {};
+  const GroupedContact& contact = contacts[static_cast<std::size_t>(response.contact)];
+  return describe_impossible_restitution("the contact of " + names(contact), contact.surface,
+                                         contact.surface.restitution.at(response.speed), response.speed);
+}
+
+std::vector<Impact> GroupHandler::impacts(const std::vector<GroupedContact>& contacts, const GroupBounce& bounce,
+                                          const std::map<int, Instant>& instants) const {
+  const World& world = run_.world();
+  const double t = contacts.front().contact.time;
+  std::vector<Impact> impacts;
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    const GroupedContact& contact = contacts[i];
+    const Instant& first = instants.at(run_.course_of(contact.first));
+    Impact& impact = impacts.emplace_back();
+    if (contact.second >= 0) {
+      const Instant& second = instants.at(run_.course_of(contact.second));
+      impact = describe(world, as_meeting(contact), first.before(), second.before());
+      impact.partner->velocity_after = body(contact.second).slice().velocity(second.q);
+      impact.partner->angular_velocity_after = angular_velocity(body(contact.second), second.q);
+    } else {
+      impact = describe(world, as_pair(contact), run_.encounters().frame(contact.obstacle, t), first.before());
+    }
+    impact.elapsed = t;
+    impact.velocity_after = body(contact.first).slice().velocity(first.q);
+    impact.angular_velocity_after = angular_velocity(body(contact.first), first.q);
+    impact.impulse = bounce.response().impulses[i] * bounce.normal(i);
+  }
+  return impacts;
+}
+
+bool GroupHandler::settle(const std::vector<GroupedContact>& contacts, const std::vector<Impact>& impacts,
+                          const GroupBounce& bounce, std::map<int, Instant>& instants) {
+  const World& world = run_.world();
+  const double t = contacts.front().contact.time;
+  for (auto& [course, instant] : instants)
+    for (const int each : instant.course().group().bodies)
+      if (const std::string failure = run_.lasting_contacts().release_by_speed(instant, each); !failure.empty()) {
+        run_.fail(t, "body '" + body(each).name + "' in contact: " + failure);
+        return false;
+      }
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    const GroupedContact& contact = contacts[i];
+    Instant& first = instants.at(run_.course_of(contact.first));
+    const double approach = bounce.response().approaches[i];
+    if (contact.second < 0) {
+      if (contact.is_lasting || !contact.is_met) continue;
+      if (!contacts_.settle(first, as_pair(contact), impacts[i], contact.surface.restitution.at(approach)))
+        return false;
+      continue;
+    }
+    const Instant& second = instants.at(run_.course_of(contact.second));
+    const GapMotion gap = gap_motion(world, as_meeting(contact), first.q, first.rate(), second.q, second.rate());
+    if (gap.acceleration < 0.0 &&
+        is_below_flight(std::max(0.0, gap.speed), -gap.acceleration, contact.contact.memory.tolerance)) {
+      run_.fail(t, "bodies " + names(contact) +
+                       " come to rest against each other: contact of bodies that lasts is not computed yet");
+      return false;
+    }
+  }
+  return true;
+}
+
+}  // namespace trajet
