@@ -153,7 +153,9 @@ GroupResponse resolve_group(const std::vector<GroupBody>& bodies, const std::vec
   for (int round = 0; round <= most_rounds; ++round) {
     const Column speeds = group.speeds();
     const Real no_speed = group.no_speed();
-    if (!(speeds.array() < -no_speed).any()) return finish(GroupResponse::Status::resolved);
+    // what nothing moves stays as it is
+    const Column approaching = (group.compliance().diagonal().array() > Real(0)).select(speeds, Real(0));
+    if (!(approaching.array() < -no_speed).any()) return finish(GroupResponse::Status::resolved);
     const bool is_projection = is_plastic || round == most_rounds;
     const Real most = is_projection ? speeds.maxCoeff() : rule == Simultaneous::group ? no_speed : -no_speed;
     std::vector<int> taking;
