@@ -9,6 +9,7 @@
 
 #include "body_bounce.hpp"
 #include "impact_sides.hpp"
+#include "solid_contact.hpp"
 #include "ties.hpp"
 #include "trajet/geom/closest_point.hpp"
 #include "trajet/portable.hpp"
@@ -50,6 +51,10 @@ class Collector {
   void add(const GroupedContact& contact) {
     if (!known_.insert(Key{contact.first, contact.second, contact.obstacle}).second) return;
     found_.push_back(contact);
+    const bool is_of_round =
+        is_round(body(contact.first).solid) && (contact.second < 0 || is_round(body(contact.second).solid));
+    if (const auto& touched = contact.contact.touched; touched && !is_of_round)
+      found_.back().points = touched->points.empty() ? std::vector{contact.contact.point} : touched->points;
     for (const int each : {contact.first, contact.second})
       if (each >= 0 && reached_.insert(each).second) waiting_.push_back(each);
   }
@@ -87,6 +92,15 @@ class Collector {
                              .surface = world().surface(index, resting.obstacle),
                              .is_lasting = true};
       lasting.contact = touching(resting.normal, position(index) - size(index) * resting.normal, position(index));
+      if (resting.core) {
+        lasting.contact.point = resting.point;
+        lasting.contact.touched = {Feature::vertex, Feature::face, {}};
+        const Eigen::VectorXd q = course.state(t_);
+        const std::vector<Vector3> places =
+            places_of_corners(world(), resting, run_.encounters().frame(resting.obstacle, t_), q);
+        for (const int corner : resting.corners)
+          lasting.contact.touched->points.push_back(places[static_cast<std::size_t>(corner)]);
+      }
       add(lasting);
     }
   }

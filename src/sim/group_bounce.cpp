@@ -1,8 +1,11 @@
 #include "group_bounce.hpp"
 
+#include <algorithm>
+
 #include "body_state.hpp"
 #include "impact_sides.hpp"
 #include "jump_derivative.hpp"
+#include "trajet/portable.hpp"
 
 namespace trajet {
 
@@ -23,7 +26,12 @@ GroupBounce::GroupBounce(const World& world, const std::vector<GroupedContact>& 
   for (const GroupedContact& contact : contacts_)
     for (const int each : {contact.first, contact.second})
       if (each >= 0) places_.try_emplace(each, static_cast<int>(places_.size()));
-  for (std::size_t i = 0; i < contacts_.size(); ++i) touches_.push_back(touch_of(contacts_[i], surfaces_[i]));
+  for (std::size_t i = 0; i < contacts_.size(); ++i) {
+    const std::size_t first = touches_.size();
+    if (contacts_[i].points.empty()) touches_.push_back(round_touch(contacts_[i], surfaces_[i]));
+    for (const Vector3& place : contacts_[i].points) touches_.push_back(solid_touch(contacts_[i], place));
+    for (std::size_t k = first; k < touches_.size(); ++k) touches_[k].contact = i;
+  }
   const Setting setting = this->setting(before_);
   for (const GroupContact& contact : setting.contacts) normals_.push_back(contact.normal);
   response_ = resolve_group(setting.bodies, setting.contacts, world_.simultaneous);
@@ -35,23 +43,20 @@ BodySlice GroupBounce::slice(int index) const {
   return slice;
 }
 
-GroupBounce::Touch GroupBounce::touch_of(const GroupedContact& contact,
-                                         const std::optional<FrameMotion>& surface) const {
-  Touch touch;
-  const ContactResult& found = contact.contact;
-  const BodySlice first = slice(contact.first);
-  const Vector3 position = first.position(before_);
-  touch.is_round = is_round(body(contact.first).solid) && (contact.second < 0 || is_round(body(contact.second).solid));
-  if (touch.is_round) {
-    touch.normal = found.normal;
-    touch.point = position;
-    if (contact.second < 0 && !contact.is_lasting)
-      touch.turning =
-          normal_derivative(world_, {.id = {contact.first, contact.obstacle}, .contact = found}, surface, position);
-    return touch;
-  }
+GroupBounce::Touch GroupBounce::round_touch(const GroupedContact& contact,
+                                            const std::optional<FrameMotion>& surface) const {
+  const Vector3 position = slice(contact.first).position(before_);
+  Touch touch{.place = contact.contact.point, .is_round = true, .normal = contact.contact.normal, .point = position};
+  if (contact.second < 0 && !contact.is_lasting)
+    touch.turning = normal_derivative(world_, {.id = {contact.first, contact.obstacle}, .contact = contact.contact},
+                                      surface, position);
+  return touch;
+}
+
+GroupBounce::Touch GroupBounce::solid_touch(const GroupedContact& contact, const Vector3& place) const {
+  Touch touch{.place = place};
   // a face has the normal, and what lies on it the point
-  const TouchedFeatures& touched = *found.touched;
+  const TouchedFeatures& touched = *contact.contact.touched;
   const bool turns_with_first = touched.of_body == Feature::face && touched.of_obstacle != Feature::face;
   if (turns_with_first) touch.normal_owner = contact.first;
   if (!turns_with_first && touched.of_obstacle == Feature::face) touch.normal_owner = contact.second;
@@ -59,11 +64,42 @@ GroupBounce::Touch GroupBounce::touch_of(const GroupedContact& contact,
   const auto to_frame = [&](int owner, const Vector3& vector) {
     return owner < 0 ? vector : Vector3(rotation_of(body(owner), slice(owner), before_).transpose() * vector);
   };
-  touch.normal = to_frame(touch.normal_owner, found.normal);
+  touch.normal = to_frame(touch.normal_owner, contact.contact.normal);
   touch.point = touch.point_owner < 0
-                    ? found.point
-                    : to_frame(touch.point_owner, found.point - Vector3(slice(touch.point_owner).position(before_)));
+                    ? place
+                    : to_frame(touch.point_owner, place - Vector3(slice(touch.point_owner).position(before_)));
   return touch;
+}
+
+bool GroupBounce::is_of_first_alone() const {
+  return contacts_.front().points.size() < 2 && ranges::all_of(response_.rounds, [](const GroupRound& round) {
+           return round.pushing.empty() || round.pushing == std::vector<int>{0};
+         });
+}
+
+Vector3 GroupBounce::impulse(std::size_t contact) const {
+  Vector3 sum = Vector3::Zero();
+  for (std::size_t i = 0; i < touches_.size(); ++i)
+    if (touches_[i].contact == contact) sum += response_.impulses[i] * normals_[i];
+  return sum;
+}
+
+double GroupBounce::approach(std::size_t contact) const {
+  double most = 0.0;
+  for (std::size_t i = 0; i < touches_.size(); ++i)
+    if (touches_[i].contact == contact) most = std::max(most, response_.approaches[i]);
+  return most;
+}
+
+Vector3 GroupBounce::point(std::size_t contact) const {
+  Vector3 sum = Vector3::Zero();
+  double total = 0.0;
+  for (std::size_t i = 0; i < touches_.size(); ++i) {
+    if (touches_[i].contact != contact) continue;
+    sum += response_.impulses[i] * touches_[i].place;
+    total += response_.impulses[i];
+  }
+  return total > 0.0 ? Vector3(sum / total) : contacts_[contact].contact.point;
 }
 
 GroupBounce::Setting GroupBounce::setting(const Eigen::VectorXd& q) const {
@@ -83,9 +119,8 @@ GroupBounce::Setting GroupBounce::setting(const Eigen::VectorXd& q) const {
   const auto to_world = [&](int owner, const Vector3& vector) {
     return owner < 0 ? vector : Vector3(rotation_of(body(owner), slice(owner), q) * vector);
   };
-  for (std::size_t i = 0; i < contacts_.size(); ++i) {
-    const GroupedContact& contact = contacts_[i];
-    const Touch& touch = touches_[i];
+  for (const Touch& touch : touches_) {
+    const GroupedContact& contact = contacts_[touch.contact];
     GroupContact& grouped = setting.contacts.emplace_back();
     grouped.first = places_.at(contact.first);
     grouped.restitution = contact.surface.restitution;
@@ -111,7 +146,8 @@ GroupBounce::Setting GroupBounce::setting(const Eigen::VectorXd& q) const {
     }
     grouped.second = static_cast<int>(setting.bodies.size());
     GroupBody& surface = setting.bodies.emplace_back();
-    if (surfaces_[i]) surface.velocity = surfaces_[i]->velocity_at(touch.is_round ? first : point);
+    if (const auto& moving = surfaces_[touch.contact])
+      surface.velocity = moving->velocity_at(touch.is_round ? first : point);
   }
   return setting;
 }
@@ -153,7 +189,7 @@ Eigen::MatrixXd GroupBounce::derivative_at_fixed_time() const {
 }
 
 Eigen::RowVectorXd GroupBounce::time_gradient(std::size_t i) const {
-  const GroupedContact& contact = contacts_[i];
+  const GroupedContact& contact = contacts_[touches_[i].contact];
   Eigen::VectorXd gradient = Eigen::VectorXd::Zero(before_.size());
   // dt = -dg / g'
   if (!(response_.approaches[i] > 0.0)) return gradient;
@@ -162,7 +198,7 @@ Eigen::RowVectorXd GroupBounce::time_gradient(std::size_t i) const {
     if (touches_[i].is_round)
       gradient.segment<3>(slice.position_index()) += direction;
     else
-      add_gradient(body(index), slice, before_, contact.contact.point, direction, gradient);
+      add_gradient(body(index), slice, before_, touches_[i].place, direction, gradient);
   };
   add(contact.first, normals_[i]);
   if (contact.second >= 0) add(contact.second, -normals_[i]);
@@ -186,9 +222,10 @@ void GroupBounce::apply(const std::map<int, Eigen::MatrixXd>& errors) {
     double total = 0.0;
     Eigen::RowVectorXd mean = Eigen::RowVectorXd::Zero(before_.size());
     Eigen::MatrixXd shift = Eigen::MatrixXd::Zero(3, before_.size());
-    for (std::size_t i = 0; i < contacts_.size(); ++i) {
-      const bool is_first = contacts_[i].first == index;
-      if ((!is_first && contacts_[i].second != index) || !(response_.impulses[i] > 0.0)) continue;
+    for (std::size_t i = 0; i < touches_.size(); ++i) {
+      const GroupedContact& contact = contacts_[touches_[i].contact];
+      const bool is_first = contact.first == index;
+      if ((!is_first && contact.second != index) || !(response_.impulses[i] > 0.0)) continue;
       const Eigen::RowVectorXd time = time_gradient(i);
       const double impulse = response_.impulses[i];
       mean += impulse * time;

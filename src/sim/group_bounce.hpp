@@ -19,11 +19,17 @@ class GroupBounce {
   GroupBounce(const World& world, const std::vector<GroupedContact>& contacts, std::map<int, Instant>& instants,
               std::vector<std::optional<FrameMotion>> surfaces);
 
+  /// Its contacts are the points at which solids touch.
   const GroupResponse& response() const { return response_; }
-  /// Of the body of a contact, in `GroupResponse::after`.
-  int place_of(int body) const { return places_.at(body); }
-  /// The normal of a contact as the response took it.
-  const Vector3& normal(std::size_t contact) const { return normals_[contact]; }
+  /// Of which of the contacts a point of the response is.
+  std::size_t contact_of(int point) const { return touches_[static_cast<std::size_t>(point)].contact; }
+  /// Whether nothing pushes but the first contact, and that at its one point.
+  bool is_of_first_alone() const;
+  /// Of a contact: its impulse on the first body, N s; the greatest speed at which one of its points was approached
+  /// when it pushed first, m/s; and where its impulse acts.
+  Vector3 impulse(std::size_t contact) const;
+  double approach(std::size_t contact) const;
+  Vector3 point(std::size_t contact) const;
 
   /// Changes the states of the instants, and what becomes of their errors. `errors`: of each course, as
   /// Course::error_columns gives them.
@@ -34,8 +40,10 @@ class GroupBounce {
   void apply(const std::map<int, Eigen::MatrixXd>& errors);
 
  private:
-  /// A contact as the states of the bodies see it.
+  /// A point of a contact as the states of the bodies see it.
   struct Touch {
+    std::size_t contact = 0;
+    Vector3 place = Vector3::Zero();    ///< world
     bool is_round = false;              ///< the normal is the line of two centres
     Matrix3 turning = Matrix3::Zero();  ///< of a ball on an obstacle: the derivative of the normal by its place, 1/m
     int normal_owner = -1;              ///< the body with which the normal turns
@@ -50,13 +58,14 @@ class GroupBounce {
 
   const World::Body& body(int index) const { return world_.bodies[static_cast<std::size_t>(index)]; }
   BodySlice slice(int body) const;
-  Touch touch_of(const GroupedContact& contact, const std::optional<FrameMotion>& surface) const;
+  Touch round_touch(const GroupedContact& contact, const std::optional<FrameMotion>& surface) const;
+  Touch solid_touch(const GroupedContact& contact, const Vector3& place) const;
   Setting setting(const Eigen::VectorXd& q) const;
   /// Puts velocities into a joint state.
   void put_after(const Setting& before, const std::vector<GroupBody>& after, Eigen::VectorXd& q) const;
   Eigen::MatrixXd derivative_at_fixed_time() const;
-  /// How the contact's own time changes with the joint state, s per unit.
-  Eigen::RowVectorXd time_gradient(std::size_t contact) const;
+  /// How the time of a point's own contact changes with the joint state, s per unit.
+  Eigen::RowVectorXd time_gradient(std::size_t point) const;
 
   const World& world_;
   const std::vector<GroupedContact>& contacts_;
@@ -67,7 +76,7 @@ class GroupBounce {
   Eigen::VectorXd before_;      // of all courses, one behind the other
   Eigen::VectorXd rate_;
   std::vector<Touch> touches_;
-  std::vector<Vector3> normals_;
+  std::vector<Vector3> normals_;  // of each touch
   GroupResponse response_;
 };
 

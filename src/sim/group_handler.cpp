@@ -49,9 +49,7 @@ bool GroupHandler::handle(int course, const Meeting& met) {
 
 bool GroupHandler::handle(int index, const GroupedContact& seed) {
   const std::vector<GroupedContact> contacts = contacts_at_once(run_, seed);
-  // what rubs is resolved one by one, each by the law of one contact, none of which gains energy
-  const auto rubs = [](const GroupedContact& contact) { return friction_of(contact.surface).acts(); };
-  if (contacts.size() == 1 || ranges::any_of(contacts, rubs)) return false;
+  if (contacts.size() == 1 && contacts.front().points.size() < 2) return false;
   const World& world = run_.world();
   const double t = seed.contact.time;
   std::set<int> bodies;
@@ -68,12 +66,9 @@ bool GroupHandler::handle(int index, const GroupedContact& seed) {
     surfaces.push_back(contact.second < 0 ? run_.encounters().frame(contact.obstacle, t) : std::nullopt);
   GroupBounce bounce(world, contacts, instants, std::move(surfaces));
   const GroupResponse& response = bounce.response();
-  // that of the seed alone is resolved by itself
-  const bool is_alone = response.status == GroupResponse::Status::resolved &&
-                        ranges::all_of(response.rounds, [](const GroupRound& round) {
-                          return round.pushing.empty() || round.pushing == std::vector<int>{0};
-                        });
-  if (is_alone) return false;
+  // an impact at one point alone is resolved by itself
+  if (response.status == GroupResponse::Status::resolved && (bounce.is_of_first_alone() || rubs(contacts, bounce)))
+    return false;
 
   // at one instant, events come first, those of the other courses too
   for (const auto& [other, instant] : instants) {
@@ -92,8 +87,8 @@ bool GroupHandler::handle(int index, const GroupedContact& seed) {
   bounce.apply(errors);
   const std::vector<Impact> all = impacts(contacts, bounce, instants);
   std::vector<Impact> pushing;
-  for (std::size_t i = 0; i < contacts.size(); ++i)
-    if (response.impulses[i] > 0.0) pushing.push_back(all[i]);
+  for (const Impact& each : all)
+    if (!each.impulse.isZero(0.0)) pushing.push_back(each);
   run_.recorder().impacts(pushing);
   if (!settle(contacts, all, bounce, instants)) return true;
 
@@ -106,10 +101,11 @@ bool GroupHandler::handle(int index, const GroupedContact& seed) {
     stops =
         settle_other_contacts(world, run_.encounters(), as_pair(contact), all[i], instant, run_.recorder()) || stops;
   }
-  for (const GroupedContact& contact : contacts)
-    if (contact.second < 0 && !contact.is_lasting)
-      instants.at(run_.course_of(contact.first))
-          .memories.push_back({{contact.first, contact.obstacle}, memory_behind(contact.contact, t)});
+  for (const GroupedContact& contact : contacts) {
+    if (contact.second >= 0 || contact.is_lasting) continue;
+    auto& memories = instants.at(run_.course_of(contact.first)).memories;
+    memories.insert(memories.begin(), {{contact.first, contact.obstacle}, memory_behind(contact.contact, t)});
+  }
   for (const auto& [course, instant] : instants) run_.go_on(course, instant);
   for (const GroupedContact& contact : contacts)
     if (contact.second >= 0)
@@ -122,6 +118,18 @@ bool GroupHandler::handle(int index, const GroupedContact& seed) {
   }
   for (const auto& [course, instant] : instants) run_.advance(course);
   return true;
+}
+
+bool GroupHandler::rubs(const std::vector<GroupedContact>& contacts, const GroupBounce& bounce) const {
+  // of what pushes most, so little is what rounding makes of nothing
+  constexpr double kNoImpulse = 1e-12;
+  double most = 0.0, rubbing = 0.0;
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    const double impulse = bounce.impulse(i).norm();
+    most = std::max(most, impulse);
+    if (friction_of(contacts[i].surface).acts()) rubbing = std::max(rubbing, impulse);
+  }
+  return rubbing > kNoImpulse * most;
 }
 
 std::string GroupHandler::names(const GroupedContact& contact) const {
@@ -139,7 +147,7 @@ std::string GroupHandler::describe_failure(const std::vector<GroupedContact>& co
            "' is jammed: no velocity is left that all let it have which it touches at this instant, " +
            names(contacts.front()) + " among them";
   if (response.status != GroupResponse::Status::impossible) return {};
-  const GroupedContact& contact = contacts[static_cast<std::size_t>(response.contact)];
+  const GroupedContact& contact = contacts[bounce.contact_of(response.contact)];
   return describe_impossible_restitution("the contact of " + names(contact), contact.surface,
                                          contact.surface.restitution.at(response.speed), response.speed);
 }
@@ -164,7 +172,8 @@ std::vector<Impact> GroupHandler::impacts(const std::vector<GroupedContact>& con
     impact.elapsed = t;
     impact.velocity_after = body(contact.first).slice().velocity(first.q);
     impact.angular_velocity_after = angular_velocity(body(contact.first), first.q);
-    impact.impulse = bounce.response().impulses[i] * bounce.normal(i);
+    impact.impulse = bounce.impulse(i);
+    if (!contact.points.empty()) impact.point = bounce.point(i);
   }
   return impacts;
 }
@@ -182,7 +191,7 @@ bool GroupHandler::settle(const std::vector<GroupedContact>& contacts, const std
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     const GroupedContact& contact = contacts[i];
     Instant& first = instants.at(run_.course_of(contact.first));
-    const double approach = bounce.response().approaches[i];
+    const double approach = bounce.approach(i);
     if (contact.second < 0) {
       if (contact.is_lasting || !contact.is_met) continue;
       if (!contacts_.settle(first, as_pair(contact), impacts[i], contact.surface.restitution.at(approach)))

@@ -154,9 +154,11 @@ TEST(SimultaneousImpacts, BallsThatTouchAtTheStartMayApproach) {
   for (const Impact& impact : result.impacts) EXPECT_EQ(impact.time, 0.0);
 }
 
-std::string rack(double gap, double restitution) {
-  const double radius = 0.028575, apart = 2.0 * radius + gap;
-  const std::string more = "restitution = " + number(restitution) + "\n";
+constexpr double kRadius = 0.028575;
+
+std::string rack(double gap, double restitution, const std::string& law = "") {
+  const double radius = kRadius, apart = 2.0 * radius + gap;
+  const std::string more = "restitution = " + number(restitution) + "\n" + law;
   std::string scene =
       BallOf{.name = "cue", .radius = radius, .mass = 0.17, .position = {-1, 0, 0}, .velocity = {8, 0, 0}, .more = more}
           .text();
@@ -174,6 +176,16 @@ std::string rack(double gap, double restitution) {
   return scene;
 }
 
+void expect_symmetric(const RunResult& result) {
+  for (int row = 0; row < 5; ++row)
+    for (int k = 0; k <= row; ++k) {
+      const BodyState& one = final_of(result, "b" + std::to_string(row) + std::to_string(k));
+      const BodyState& other = final_of(result, "b" + std::to_string(row) + std::to_string(row - k));
+      const Vector3 mirrored(other.position.x(), -other.position.y(), other.position.z());
+      EXPECT_NEAR((one.position - mirrored).norm(), 0.0, 1e-9) << row << k;
+    }
+}
+
 TEST(SimultaneousImpacts, ASymmetricBreakStaysSymmetric) {
   for (const double gap : {0.0, 1e-4})
     for (const double restitution : {1.0, 0.95})
@@ -181,15 +193,32 @@ TEST(SimultaneousImpacts, ASymmetricBreakStaysSymmetric) {
         const RunResult result = run_text("[time]\nend = 1\n" + method + rack(gap, restitution));
         SCOPED_TRACE(number(gap) + " " + number(restitution) + " " + method);
         ASSERT_EQ(result.status, RunStatus::finished) << result.failure;
-        for (int row = 0; row < 5; ++row)
-          for (int k = 0; k <= row; ++k) {
-            const BodyState& one = final_of(result, "b" + std::to_string(row) + std::to_string(k));
-            const BodyState& other = final_of(result, "b" + std::to_string(row) + std::to_string(row - k));
-            const Vector3 mirrored(other.position.x(), -other.position.y(), other.position.z());
-            EXPECT_NEAR((one.position - mirrored).norm(), 0.0, 1e-9) << row << k;
-          }
+        expect_symmetric(result);
         EXPECT_LE(energy(result, 0.17), 0.5 * 0.17 * 64.0 * (1.0 + 1e-14));
       }
+}
+
+/// On a table that rubs, on which no impact presses: the break is what it is without one.
+TEST(SimultaneousImpacts, OnATableWithFrictionABreakStaysSymmetric) {
+  const std::string table =
+      plane("table", {0, 0, -kRadius}, Vector3::UnitZ(), 0.5) + "friction = 0.2\nrolling_friction = \"0.05 mm\"\n";
+  const RunResult result = run_text("[time]\nend = 0.4\n" + rack(0.0, 0.95, "acceleration = [0, 0, -9.81]\n") + table);
+  ASSERT_EQ(result.status, RunStatus::finished) << result.failure;
+  expect_symmetric(result);
+  const RunResult free = run_text("[time]\nend = 0.4\n" + rack(0.0, 0.95));
+  const auto breaks = [](const RunResult& of) {
+    std::vector<Impact> group;
+    for (const Impact& impact : of.impacts)
+      if (impact.group == std::optional<int>(1)) group.push_back(impact);
+    return group;
+  };
+  const std::vector<Impact> on_table = breaks(result), in_space = breaks(free);
+  ASSERT_EQ(on_table.size(), in_space.size());
+  EXPECT_GT(on_table.size(), 20u);
+  // friction has slowed the cue ball down
+  const double slower = on_table[0].velocity_before.norm() / in_space[0].velocity_before.norm();
+  for (std::size_t i = 0; i < on_table.size(); ++i)
+    EXPECT_NEAR((on_table[i].velocity_after - slower * in_space[i].velocity_after).norm(), 0.0, 1e-9) << i;
 }
 
 /// G. Galperin, Regular and Chaotic Dynamics 8 (2003) 375: the digits of pi.
