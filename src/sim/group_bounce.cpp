@@ -80,7 +80,7 @@ bool GroupBounce::is_of_first_alone() const {
 Vector3 GroupBounce::impulse(std::size_t contact) const {
   Vector3 sum = Vector3::Zero();
   for (std::size_t i = 0; i < touches_.size(); ++i)
-    if (touches_[i].contact == contact) sum += response_.impulses[i] * normals_[i];
+    if (touches_[i].contact == contact) sum += impulse_at(i);
   return sum;
 }
 
@@ -124,6 +124,7 @@ GroupBounce::Setting GroupBounce::setting(const Eigen::VectorXd& q) const {
     GroupContact& grouped = setting.contacts.emplace_back();
     grouped.first = places_.at(contact.first);
     grouped.restitution = contact.surface.restitution;
+    grouped.friction = friction_of(contact.surface).coefficient;
     const Vector3 first = slice(contact.first).position(q);
     Vector3 point;
     if (touch.is_round) {
@@ -231,7 +232,7 @@ void GroupBounce::apply(const std::map<int, Eigen::MatrixXd>& errors) {
       mean += impulse * time;
       total += impulse;
       const double inverse_mass = setting.bodies[static_cast<std::size_t>(place)].inverse_mass;
-      shift -= (is_first ? impulse : -impulse) * inverse_mass * normals_[i] * time;
+      shift -= (is_first ? inverse_mass : -inverse_mass) * impulse_at(i) * time;
     }
     if (!(total > 0.0)) continue;
     mean /= total;

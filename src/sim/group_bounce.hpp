@@ -10,7 +10,7 @@
 
 namespace trajet {
 
-/// The frictionless impacts of several contacts at one instant: what becomes of the bodies, and of the errors of their
+/// The impacts of several contacts at one instant: what becomes of the bodies, and of the errors of their
 /// states.
 class GroupBounce {
  public:
@@ -61,6 +61,10 @@ class GroupBounce {
   Touch round_touch(const GroupedContact& contact, const std::optional<FrameMotion>& surface) const;
   Touch solid_touch(const GroupedContact& contact, const Vector3& place) const;
   Setting setting(const Eigen::VectorXd& q) const;
+  /// Of a point, on the first body, N s.
+  Vector3 impulse_at(std::size_t point) const {
+    return response_.impulses[point] * normals_[point] + response_.frictions[point];
+  }
   /// Puts velocities into a joint state.
   void put_after(const Setting& before, const std::vector<GroupBody>& after, Eigen::VectorXd& q) const;
   Eigen::MatrixXd derivative_at_fixed_time() const;

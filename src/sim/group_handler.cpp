@@ -67,7 +67,8 @@ bool GroupHandler::handle(int index, const GroupedContact& seed) {
   GroupBounce bounce(world, contacts, instants, std::move(surfaces));
   const GroupResponse& response = bounce.response();
   // an impact at one point alone is resolved by itself
-  if (response.status == GroupResponse::Status::resolved && (bounce.is_of_first_alone() || rubs(contacts, bounce)))
+  if (response.status == GroupResponse::Status::resolved &&
+      (bounce.is_of_first_alone() || is_known_alone(contacts, bounce)))
     return false;
 
   // at one instant, events come first, those of the other courses too
@@ -120,14 +121,16 @@ bool GroupHandler::handle(int index, const GroupedContact& seed) {
   return true;
 }
 
-bool GroupHandler::rubs(const std::vector<GroupedContact>& contacts, const GroupBounce& bounce) const {
+bool GroupHandler::is_known_alone(const std::vector<GroupedContact>& contacts, const GroupBounce& bounce) const {
   // of what pushes most, so little is what rounding makes of nothing
   constexpr double kNoImpulse = 1e-12;
   double most = 0.0, rubbing = 0.0;
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     const double impulse = bounce.impulse(i).norm();
     most = std::max(most, impulse);
-    if (friction_of(contacts[i].surface).acts()) rubbing = std::max(rubbing, impulse);
+    const ImpactFriction friction = friction_of(contacts[i].surface);
+    if (friction.tangential_restitution || (friction.acts() && !contacts[i].points.empty()))
+      rubbing = std::max(rubbing, impulse);
   }
   return rubbing > kNoImpulse * most;
 }

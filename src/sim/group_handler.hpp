@@ -19,15 +19,15 @@ class GroupHandler {
 
   /// Resolves an impact of a body with an obstacle, or of two bodies, together with what happens at the same instant,
   /// and lets all go on. False, and nothing has changed, where it is resolved by itself: where nothing else pushes, or
-  /// where what pushes has friction. `course`: of a body of it.
+  /// where it has to be, one after the other. `course`: of a body of it.
   bool handle(int course, const Pair& met);
   bool handle(int course, const Meeting& met);
 
  private:
   bool handle(int course, const GroupedContact& seed);
-  /// Whether contacts push that have friction: they are resolved one by one, each by the law of one contact, by none of
-  /// which energy grows.
-  bool rubs(const std::vector<GroupedContact>& contacts, const GroupBounce& bounce) const;
+  /// Whether contacts push of which only the law of one contact is known: of solids with friction, and of what grips
+  /// with a tangential restitution. They are resolved one by one; by none of these laws energy grows.
+  bool is_known_alone(const std::vector<GroupedContact>& contacts, const GroupBounce& bounce) const;
   /// Why the group cannot be resolved, if it cannot.
   std::string describe_failure(const std::vector<GroupedContact>& contacts, const GroupBounce& bounce) const;
   /// Of the contacts that push, their impacts.

@@ -10,6 +10,8 @@
 #include <random>
 #include <vector>
 
+#include "trajet/collide/respond/frictional_impact.hpp"
+
 namespace trajet::test {
 namespace {
 
@@ -80,10 +82,17 @@ double largest_speed(const std::vector<GroupBody>& bodies) {
   return most;
 }
 
+/// Coefficients from smooth to such that hold whatever slips.
+void add_friction(Scene& scene, std::mt19937& random) {
+  std::uniform_real_distribution<double> part(0.0, 1.0);
+  for (GroupContact& contact : scene.contacts) contact.friction = random() % 3 == 0 ? 0.0 : 1.5 * part(random);
+}
+
 TEST(ImpactGroup, EnergyNeverGrowsAndNothingApproachesBehind) {
   std::mt19937 random(1);
   for (int sample = 0; sample < 50'000; ++sample) {
-    const Scene scene = random_scene(random, true);
+    Scene scene = random_scene(random, true);
+    if (sample % 200 < 2) add_friction(scene, random);
     const Simultaneous rule = kRules[sample % 2];
     const GroupResponse response = resolve_group(scene.bodies, scene.contacts, rule);
     ASSERT_EQ(response.status, GroupResponse::Status::resolved) << sample;
@@ -94,8 +103,9 @@ TEST(ImpactGroup, EnergyNeverGrowsAndNothingApproachesBehind) {
     bool is_elastic = true;
     for (std::size_t i = 0; i < scene.contacts.size(); ++i) {
       const GroupContact& contact = scene.contacts[i];
-      is_elastic = is_elastic && contact.restitution.is_constant(1.0);
+      is_elastic = is_elastic && contact.restitution.is_constant(1.0) && contact.friction == 0.0;
       ASSERT_GE(response.impulses[i], 0.0) << sample;
+      ASSERT_LE(response.frictions[i].norm(), contact.friction * response.impulses[i] * (1.0 + 1e-14)) << sample;
       const bool moves = scene.bodies[static_cast<std::size_t>(contact.first)].inverse_mass > 0.0 ||
                          scene.bodies[static_cast<std::size_t>(contact.second)].inverse_mass > 0.0;
       ASSERT_TRUE(!moves || scene.speed(response.after, contact) >= -rounding) << sample;
@@ -116,6 +126,7 @@ TEST(ImpactGroup, MomentumAndAngularMomentumStay) {
       const Vector3 point = scene.places[static_cast<std::size_t>(contact.first)] + contact.arm_first;
       contact.arm_second = point - scene.places[static_cast<std::size_t>(contact.second)];
     }
+    if (sample % 100 < 2) add_friction(scene, random);
     const GroupResponse response = resolve_group(scene.bodies, scene.contacts, kRules[sample % 2]);
     Vector3 momentum = Vector3::Zero(), angular = Vector3::Zero();
     double size = 0.0;
@@ -137,7 +148,8 @@ TEST(ImpactGroup, MomentumAndAngularMomentumStay) {
 TEST(ImpactGroup, TheOrderOfBodiesAndContactsDoesNotMatter) {
   std::mt19937 random(3);
   for (int sample = 0; sample < 5'000; ++sample) {
-    const Scene scene = random_scene(random, true);
+    Scene scene = random_scene(random, true);
+    if (sample % 100 < 2) add_friction(scene, random);
     Scene other;
     const auto n = scene.bodies.size();
     std::vector<std::size_t> place(n);
@@ -224,6 +236,41 @@ TEST(ImpactGroup, OfATouchingCradleAsManyBallsLeaveAsCome) {
   // published: Moreau's law
   EXPECT_EQ(chain(Simultaneous::group, {1, 0, 0}), (List{-1.0 / 3.0, 2.0 / 3.0, 2.0 / 3.0}));
   EXPECT_EQ(chain(Simultaneous::reflections, {3, 0, 0}, 0.0), (List{1, 1, 1}));
+}
+
+/// Of two balls friction is what the law of one contact says: it slides or grips.
+TEST(ImpactGroup, FrictionOfTwoBallsIsThatOfTheLawOfOneContact) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> part(0.0, 1.0);
+  int grips = 0, slides = 0;
+  for (int sample = 0; sample < 2'000; ++sample) {
+    std::vector<GroupBody> balls(2);
+    std::vector<ImpactSide> sides(2);
+    const Vector3 normal = random_vector(random).normalized();
+    std::vector<GroupContact> contacts{{.first = 0, .second = 1, .normal = normal, .restitution = part(random)}};
+    for (std::size_t i = 0; i < 2; ++i) {
+      const double radius = 0.5 + part(random);
+      balls[i].velocity = random_vector(random);
+      balls[i].angular_velocity = random_vector(random);
+      balls[i].inverse_mass = 0.1 + part(random);
+      balls[i].inverse_inertia = 2.5 / (radius * radius) * balls[i].inverse_mass * Matrix3::Identity();
+      (i == 0 ? contacts[0].arm_first : contacts[0].arm_second) = (i == 0 ? -radius : radius) * normal;
+      sides[i].velocity = balls[i].velocity;
+      sides[i].angular_velocity = balls[i].angular_velocity;
+      sides[i].inverse_mass = balls[i].inverse_mass;
+      sides[i].inverse_inertia = balls[i].inverse_inertia;
+      sides[i].arm = i == 0 ? contacts[0].arm_first : contacts[0].arm_second;
+    }
+    contacts[0].friction = 0.6 * part(random);
+    const GroupResponse response = resolve_group(balls, contacts, kRules[sample % 2]);
+    const FrictionalImpact alone = frictional_impact(sides[0], sides[1], normal, contacts[0].restitution.at(0.0),
+                                                     {.coefficient = contacts[0].friction});
+    (alone.grips ? grips : slides) += alone.impulse.isZero(0.0) ? 0 : 1;
+    const Vector3 impulse = response.impulses[0] * normal + response.frictions[0];
+    ASSERT_NEAR((impulse - alone.impulse).norm(), 0.0, 1e-12 * (1.0 + impulse.norm())) << sample;
+  }
+  EXPECT_GT(grips, 100);
+  EXPECT_GT(slides, 100);
 }
 
 TEST(ImpactGroup, WallsThatCloseInOnABodyJamIt) {

@@ -221,6 +221,16 @@ TEST(SimultaneousImpacts, OnATableWithFrictionABreakStaysSymmetric) {
     EXPECT_NEAR((on_table[i].velocity_after - slower * in_space[i].velocity_after).norm(), 0.0, 1e-9) << i;
 }
 
+TEST(SimultaneousImpacts, ABreakOfBallsThatRubStaysSymmetric) {
+  const std::string table = plane("table", {0, 0, -kRadius}, Vector3::UnitZ(), 0.5) + "friction = 0.2\n";
+  const RunResult result =
+      run_text("[time]\nend = 0.3\n" + rack(0.0, 0.95, "acceleration = [0, 0, -9.81]\nfriction = 0.06\n") + table);
+  ASSERT_EQ(result.status, RunStatus::finished) << result.failure;
+  expect_symmetric(result);
+  EXPECT_TRUE(result.warnings.empty());
+  EXPECT_GT(std::abs(final_of(result, "b11").angular_velocity.z()), 1.0);
+}
+
 /// G. Galperin, Regular and Chaotic Dynamics 8 (2003) 375: the digits of pi.
 TEST(SimultaneousImpacts, GalperinsBallsCountTheDigitsOfPi) {
   double mass = 1.0;
@@ -311,6 +321,29 @@ TEST(SimultaneousImpacts, OfACornerTheOrderOfTheFileDoesNotMatter) {
       EXPECT_NEAR((velocity + impulses - response.after[0].velocity).norm(), 0.0, 1e-9) << sample;
     } while (std::next_permutation(order.begin(), order.end()));
   }
+}
+
+/// With friction too: what all walls of a corner do at once has no order.
+TEST(SimultaneousImpacts, OfACornerThatRubsTheOrderOfTheFileDoesNotMatter) {
+  std::vector<int> order{0, 1, 2};
+  std::vector<BodyState> finals;
+  do {
+    std::string scene =
+        "[time]\nend = 2\n" +
+        BallOf{.name = "ball", .radius = 0.25, .position = {1.25, 1.05, 1.55}, .velocity = {-1, -0.8, -1.3}}.text();
+    for (const int i : order)
+      scene += plane("w" + std::to_string(i), Vector3::Zero(), Vector3::Unit(i), 0.9 - 0.1 * i) + "friction = 0.3\n";
+    const RunResult result = run_text(scene);
+    ASSERT_EQ(result.status, RunStatus::finished) << result.failure;
+    EXPECT_TRUE(result.warnings.empty());
+    Vector3 impulse = Vector3::Zero();
+    for (const Impact& impact : result.impacts) impulse += impact.impulse;
+    finals.push_back(final_of(result, "ball"));
+    EXPECT_NEAR((impulse - finals.back().velocity - Vector3(1, 0.8, 1.3)).norm(), 0.0, 1e-14);
+    EXPECT_GT(finals.back().angular_velocity.norm(), 0.1);
+    EXPECT_NEAR((finals.back().velocity - finals.front().velocity).norm(), 0.0, 1e-14);
+    EXPECT_NEAR((finals.back().angular_velocity - finals.front().angular_velocity).norm(), 0.0, 1e-14);
+  } while (std::next_permutation(order.begin(), order.end()));
 }
 
 /// A cluster of touching balls of any masses that one ball hits: with the bodies in another order of the file.

@@ -3,6 +3,7 @@
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "trajet/math/complementarity.hpp"
 #include "trajet/math/polynomial.hpp"
@@ -24,7 +25,11 @@ constexpr double kNoSpeed = 64.0 * kUnitRoundoff;
 class Group {
  public:
   Group(const std::vector<GroupBody>& bodies, const std::vector<GroupContact>& contacts)
-      : bodies_(bodies), contacts_(contacts), compliance_(size(), size()), impulses_(Column::Zero(size())) {
+      : bodies_(bodies),
+        contacts_(contacts),
+        compliance_(size(), size()),
+        impulses_(Column::Zero(size())),
+        frictions_(contacts.size(), RealVector::Zero()) {
     for (const GroupBody& body : bodies) {
       velocities_.push_back(body.velocity.cast<Real>());
       angular_velocities_.push_back(body.angular_velocity.cast<Real>());
@@ -41,6 +46,11 @@ class Group {
   Eigen::Index size() const { return static_cast<Eigen::Index>(contacts_.size()); }
   const Square& compliance() const { return compliance_; }
   const Column& impulses() const { return impulses_; }
+  std::vector<Vector3> frictions() const {
+    std::vector<Vector3> frictions;
+    for (const RealVector& each : frictions_) frictions.emplace_back(each.cast<double>());
+    return frictions;
+  }
 
   /// At which the surfaces depart at each contact, m/s.
   Column speeds() const {
@@ -71,9 +81,36 @@ class Group {
       const auto i = static_cast<std::size_t>(contacts[k]);
       const Real impulse = impulses[static_cast<Eigen::Index>(k)];
       impulses_[contacts[k]] += impulse;
-      take(contacts_[i].first, impulse, contacts_[i].normal, levers_first_[i]);
-      take(contacts_[i].second, -impulse, contacts_[i].normal, levers_second_[i]);
+      const RealVector along = impulse * contacts_[i].normal.cast<Real>();
+      take(contacts_[i].first, along, impulse * levers_first_[i]);
+      take(contacts_[i].second, -along, -impulse * levers_second_[i]);
     }
+  }
+
+  /// Of contacts that have pushed with those impulses: the impulses along the surfaces, no greater than friction lets
+  /// them, that leave the least energy. It is convex in them, and each step makes it less, contact by contact.
+  void rub(const std::vector<int>& contacts, const Column& impulses) {
+    std::vector<RealVector> rubbed(contacts.size(), RealVector::Zero());
+    const Real no_change = Real(4) * std::numeric_limits<Real>::epsilon() * fastest_;
+    constexpr int kMostSweeps = 10'000;
+    for (int sweep = 0; sweep < kMostSweeps; ++sweep) {
+      Real change = 0;
+      for (std::size_t k = 0; k < contacts.size(); ++k) {
+        const auto i = static_cast<std::size_t>(contacts[k]);
+        const Real limit = Real(contacts_[i].friction) * impulses[static_cast<Eigen::Index>(k)];
+        const Real compliance = compliance_along(i);
+        if (!(limit > Real(0)) || !(compliance > Real(0))) continue;
+        RealVector next = rubbed[k] - slip(i) / compliance;
+        if (const Real size = next.norm(); size > limit) next *= limit / size;
+        const RealVector more = next - rubbed[k];
+        take(contacts_[i].first, more, contacts_[i].arm_first.cast<Real>().cross(more));
+        take(contacts_[i].second, -more, -contacts_[i].arm_second.cast<Real>().cross(more));
+        rubbed[k] = next;
+        change = std::max(change, compliance * more.norm());
+      }
+      if (change <= no_change) break;
+    }
+    for (std::size_t k = 0; k < contacts.size(); ++k) frictions_[static_cast<std::size_t>(contacts[k])] += rubbed[k];
   }
 
   std::vector<GroupBody> bodies() const {
@@ -104,17 +141,41 @@ class Group {
     return sum;
   }
 
-  void take(int index, Real impulse, const Vector3& normal, const RealVector& lever) {
+  /// At which the first body's point slips along the second's.
+  RealVector slip(std::size_t i) const {
+    const auto a = static_cast<std::size_t>(contacts_[i].first), b = static_cast<std::size_t>(contacts_[i].second);
+    const RealVector relative =
+        velocities_[a] + RealVector(angular_velocities_[a].cross(contacts_[i].arm_first.cast<Real>())) -
+        velocities_[b] - RealVector(angular_velocities_[b].cross(contacts_[i].arm_second.cast<Real>()));
+    const RealVector normal = contacts_[i].normal.cast<Real>();
+    return relative - normal * normal.dot(relative);
+  }
+
+  /// How much slip changes by an impulse of 1 N s along the surface, at most: of points and balls in any direction.
+  Real compliance_along(std::size_t i) const {
+    Real sum = 0;
+    const auto add = [&](int index, const Vector3& arm) {
+      const GroupBody& body = bodies_[static_cast<std::size_t>(index)];
+      sum += Real(body.inverse_mass) +
+             Real(arm.squaredNorm()) * Real(body.inverse_inertia.cwiseAbs().rowwise().sum().maxCoeff());
+    };
+    add(contacts_[i].first, contacts_[i].arm_first);
+    add(contacts_[i].second, contacts_[i].arm_second);
+    return sum;
+  }
+
+  void take(int index, const RealVector& impulse, const RealVector& moment) {
     const auto b = static_cast<std::size_t>(index);
-    velocities_[b] += impulse * Real(bodies_[b].inverse_mass) * normal.cast<Real>();
-    angular_velocities_[b] += impulse * (bodies_[b].inverse_inertia.cast<Real>() * lever);
+    velocities_[b] += Real(bodies_[b].inverse_mass) * impulse;
+    angular_velocities_[b] += bodies_[b].inverse_inertia.cast<Real>() * moment;
   }
 
   const std::vector<GroupBody>& bodies_;
   const std::vector<GroupContact>& contacts_;
   Square compliance_;
-  Column impulses_;   // so far
-  Real fastest_ = 0;  // m/s
+  Column impulses_;                    // so far
+  std::vector<RealVector> frictions_;  // likewise
+  Real fastest_ = 0;                   // m/s
   std::vector<RealVector> velocities_, angular_velocities_;
   std::vector<RealVector> levers_first_, levers_second_;  // arm x normal
 };
@@ -143,6 +204,7 @@ GroupResponse resolve_group(const std::vector<GroupBody>& bodies, const std::vec
     response.status = status;
     response.after = group.bodies();
     response.impulses.assign(group.impulses().data(), group.impulses().data() + group.size());
+    response.frictions = group.frictions();
     return response;
   };
   const bool is_plastic = std::all_of(contacts.begin(), contacts.end(),
@@ -172,13 +234,15 @@ GroupResponse resolve_group(const std::vector<GroupBody>& bodies, const std::vec
         response.speed = std::max(0.0, -static_cast<double>(speed));
         return finish(GroupResponse::Status::impossible);
       }
-      if (restitution < 1.0) most_rounds = std::min(most_rounds, std::max(round + 1, kMostLossyRounds));
+      if (restitution < 1.0 || contacts[i].friction > 0.0)
+        most_rounds = std::min(most_rounds, std::max(round + 1, kMostLossyRounds));
       asked[static_cast<Eigen::Index>(k)] = (Real(1) + Real(restitution)) * speed;
     }
     const auto impulses = solve_complementarity(part_of(group.compliance(), taking), asked, no_speed);
     if (!impulses) return finish(GroupResponse::Status::jammed);
     GroupRound& done = response.rounds.emplace_back();
     done.is_projection = is_projection;
+    done.rubs = round < most_rounds;
     for (std::size_t k = 0; k < taking.size(); ++k) {
       if (!((*impulses)[static_cast<Eigen::Index>(k)] > Real(0))) continue;
       done.pushing.push_back(taking[k]);
@@ -186,6 +250,7 @@ GroupResponse resolve_group(const std::vector<GroupBody>& bodies, const std::vec
       if (approach == 0.0) approach = std::max(0.0, -static_cast<double>(speeds[taking[k]]));
     }
     group.push(taking, *impulses);
+    if (done.rubs) group.rub(taking, *impulses);
     if (done.pushing.empty()) return finish(GroupResponse::Status::jammed);
   }
   return finish(GroupResponse::Status::resolved);
@@ -206,7 +271,9 @@ std::optional<std::vector<GroupBody>> repeat_rounds(const std::vector<GroupBody>
     }
     const Column impulses = part_of(group.compliance(), round.pushing).colPivHouseholderQr().solve(asked);
     if (!impulses.allFinite()) return std::nullopt;
+    group.no_speed();
     group.push(round.pushing, impulses);
+    if (round.rubs) group.rub(round.pushing, impulses);
   }
   return group.bodies();
 }

@@ -25,12 +25,14 @@ struct GroupContact {
   Vector3 arm_first = Vector3::Zero();  ///< from the centre of mass to the point of contact, m
   Vector3 arm_second = Vector3::Zero();
   RestitutionLaw restitution{};
+  double friction = 0.0;  ///< Coulomb's coefficient
 };
 
 /// One round of those that a group may take.
 struct GroupRound {
   std::vector<int> pushing{};  ///< the contacts that pushed at once, their indices in order
   bool is_projection = false;  ///< whatever their restitutions, they keep no speed
+  bool rubs = true;            ///< what has friction rubs
 };
 
 /// What a group of impacts comes to.
@@ -45,11 +47,12 @@ struct GroupResponse {
   double speed = 0.0;  ///< m/s, of approach at it
   std::vector<GroupBody> after{};
   std::vector<double> impulses{};    ///< N s, of each contact along its normal on its first body, all rounds together
+  std::vector<Vector3> frictions{};  ///< N s, likewise, along the surfaces
   std::vector<double> approaches{};  ///< m/s, > 0: at which each contact was approached when it pushed first; else 0
   std::vector<GroupRound> rounds{};
 };
 
-/// The frictionless impacts of rigid bodies at several contacts at one instant.
+/// The impacts of rigid bodies at several contacts at one instant.
 ///
 /// Of contacts K the law of a round is Newton's at all of them together: impulses lambda_i >= 0 with
 /// u+_i + e_i u-_i >= 0 and lambda_i (u+_i + e_i u-_i) = 0, u the speeds along the normals. `reflections`: K are those
@@ -58,11 +61,16 @@ struct GroupResponse {
 /// not depart, u-_i <= 0, which with one e for all is Moreau's v+ = (1 + e) P(v-) - e v- [Moreau1988], and again where
 /// others are approached then. Where all e are 0 the one round holds all contacts, and is the projection.
 ///
+/// Friction: the impulses along the surfaces within Coulomb's limit, mu lambda_i, that leave the least kinetic energy.
+/// They are those that oppose slip, or end it, and that is what the law of one contact says of points and balls. Where
+/// they make contacts approach, these are of the next round.
+///
 /// The energy does not grow (less the work of driven bodies): in each round the gain is
-/// sum lambda_i (u+_i + u-_i) / 2 = sum lambda_i (1 - e_i) u-_i / 2 <= 0, and by the projection -|v- - v+|^2 / 2.
-/// Impulses act on both bodies of a contact at one point, so momentum and angular momentum stay. The velocities behind
-/// are unique, whatever the order of bodies and contacts; impulses are unless some contacts could do without others.
-/// Where restitutions below 1 would take rounds without end, the projection is their limit, and ends them.
+/// sum lambda_i (u+_i + u-_i) / 2 = sum lambda_i (1 - e_i) u-_i / 2 <= 0, and by the projection -|v- - v+|^2 / 2;
+/// friction leaves no more than none would. Impulses act on both bodies of a contact at one point, so momentum and
+/// angular momentum stay. The velocities behind are unique, whatever the order of bodies and contacts; impulses are
+/// unless some contacts could do without others. Where restitutions below 1, or friction, would take rounds without
+/// end, the projection ends them, which is their limit.
 GroupResponse resolve_group(const std::vector<GroupBody>& bodies, const std::vector<GroupContact>& contacts,
                             Simultaneous rule);
 
