@@ -59,8 +59,11 @@ class Collector {
       if (each >= 0 && reached_.insert(each).second) waiting_.push_back(each);
   }
 
+  /// A point at the origin has no size: what its times cannot be told apart by is near too.
   bool is_near(const ContactResult& contact, double extent) const {
-    return std::abs(contact.time - t_) * std::abs(contact.gap_rate) <= kNear * extent;
+    const double apart = std::abs(contact.time - t_);
+    return apart * std::abs(contact.gap_rate) <= kNear * extent ||
+           apart <= contact.time_resolution + seed_.contact.time_resolution;
   }
   bool is_at_once(const ContactResult& contact) const {
     return std::abs(contact.time - t_) <= contact.time_error_bound + seed_.contact.time_error_bound;
