@@ -33,6 +33,7 @@ Json object(const Impact& impact) {
     json["with_angular_velocity_before"] = array(impact.partner->angular_velocity_before);
     json["with_angular_velocity_after"] = array(impact.partner->angular_velocity_after);
   }
+  if (impact.group) json["group"] = *impact.group;
   if (!impact.touched) return json;
   json["features"] = {name(impact.touched->of_body), name(impact.touched->of_obstacle)};
   for (const Vector3& point : impact.touched->points) json["points"].push_back(array(point));

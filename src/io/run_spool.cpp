@@ -77,6 +77,18 @@ bool get(Spool::Reader& reader, std::optional<TouchedFeatures>& touched) {
   return true;
 }
 
+void put(std::string& bytes, const std::optional<int>& number) {
+  put(bytes, number.has_value());
+  if (number) put(bytes, *number);
+}
+
+bool get(Spool::Reader& reader, std::optional<int>& number) {
+  bool is_there = false;
+  if (!get(reader, is_there)) return false;
+  number.reset();
+  return !is_there || get(reader, number.emplace());
+}
+
 void put(std::string& bytes, const std::optional<ImpactPartner>& partner) {
   put(bytes, partner.has_value());
   if (!partner) return;
@@ -137,6 +149,7 @@ void RecordSpool::impact(const Impact& impact) {
   all_of_impact(impact, putter(bytes_));
   put(bytes_, impact.touched);
   put(bytes_, impact.partner);
+  put(bytes_, impact.group);
   spool_.append(kImpacts, bytes_);
 }
 
@@ -148,7 +161,8 @@ void RecordSpool::event(const EventRecord& event) {
 void RecordSpool::each_impact(const std::function<void(const Impact&)>& use) const {
   Spool::Reader reader(spool_, kImpacts);
   Impact impact;
-  while (all_of_impact(impact, getter(reader)) && get(reader, impact.touched) && get(reader, impact.partner))
+  while (all_of_impact(impact, getter(reader)) && get(reader, impact.touched) && get(reader, impact.partner) &&
+         get(reader, impact.group))
     use(impact);
 }
 

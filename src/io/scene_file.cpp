@@ -208,6 +208,9 @@ class SceneReader {
         alias != nullptr ? alias->way : orientation_ways()[table.choice("orientation", orientations, 0)].way;
     method.locate = std::array{Locator::polynomial, Locator::interpolation,
                                Locator::subdivision}[table.choice("locate", detail::words(keys, "locate"), 0)];
+    method.simultaneous =
+        std::array{Simultaneous::reflections,
+                   Simultaneous::group}[table.choice("simultaneous", detail::words(keys, "simultaneous"), 0)];
     return method;
   }
 

@@ -70,6 +70,11 @@ Keys method_keys() {
        "how the times of impacts are found; default polynomial",
        {},
        {"polynomial", "interpolation", "subdivision"}},
+      {"simultaneous",
+       Form::word,
+       "how impacts at one instant are resolved; default reflections",
+       {},
+       {"reflections", "group"}},
   };
   return keys;
 }

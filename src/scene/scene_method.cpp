@@ -99,6 +99,7 @@ void set_method(const MethodOptions& method, const SceneNumbers& numbers, World&
   world.max_steps = method.max_steps;
   if (method.max_seconds) world.max_seconds = numbers.positive(*method.max_seconds, "max_seconds");
   world.locate = method.locate;
+  world.simultaneous = method.simultaneous;
 }
 
 void check_that_method_suits(const Scene& scene, const World& world) {

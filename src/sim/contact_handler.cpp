@@ -5,11 +5,11 @@
 
 #include "ball_bounce.hpp"
 #include "extended_bounce.hpp"
+#include "group_handler.hpp"
 #include "impact_record.hpp"
 #include "impact_sides.hpp"
 #include "jump_derivative.hpp"
 #include "last_contact.hpp"
-#include "plastic_bounce.hpp"
 #include "solid_bounce.hpp"
 #include "ties.hpp"
 #include "trajet/collide/respond/restitution.hpp"
@@ -152,8 +152,6 @@ void ContactHandler::bounce(int index, Pair pair, Impact impact) {
   Course& moving = run_.course(index);
   const World::Body& body = body_of(pair);
   const double t = impact.elapsed;
-  run_.recorder().sample(t, pair.id.body, SamplePhase::before);
-
   Instant instant(moving, t);
   auto velocity = instant.q.segment<3>(body.offset + 3);
   // the velocity of the centre is dr/dt, which a position_rate may set apart from v
@@ -164,16 +162,24 @@ void ContactHandler::bounce(int index, Pair pair, Impact impact) {
   if (!(restitution >= 0.0 && restitution <= 1.0))
     return run_.fail(t, describe_restitution(obstacle_of(pair), surface_of(pair), restitution, speed_before));
   if (const std::string reason = why_it_cannot_bounce(body, surface_of(pair)); !reason.empty()) {
+    run_.recorder().sample(t, pair.id.body, SamplePhase::before);
     run_.recorder().impact(impact);
     return run_.fail(t, reason);
   }
   const double mass = mass_of(body, t, instant.q);
-  const std::vector<Impact> group = bounce_plastic(run_.world(), run_.encounters(), pair, impact, mass, instant);
+  // else it lies there, or its flight is so low that the Segment does not show it
+  const double pull = -impact.normal.dot(motion.acceleration);
+  const double speed = -approach.dot(impact.normal);
+  const double no_time = kUnitRoundoff * run_.world().duration;
+  const double lowest_fall = std::max(pair.contact.memory.tolerance, std::abs(pull) * no_time * no_time);
+  const bool is_hit = speed > 0.0 && !is_lying(speed, std::max(0.0, pull), lowest_fall);
+  if (is_hit && run_.groups().handle(index, pair)) return;
+  run_.recorder().sample(t, pair.id.body, SamplePhase::before);
   const std::optional<FrameMotion> surface = run_.encounters().frame(pair.id.obstacle, t);
   double gained = 0.0;
-  if (group.empty() && friction_of(surface_of(pair)).acts()) {
+  if (friction_of(surface_of(pair)).acts()) {
     gained = bounce_ball(run_.world(), pair, surface, mass, moving.rate(t, instant.before()), instant, impact);
-  } else if (group.empty()) {
+  } else {
     velocity += rebound(approach, impact.normal, restitution).impulse_per_mass;
     if (run_.world().extended && !surface && approach == Vector3(impact.velocity_before))
       bounce_extended(run_.world(), pair, instant);
@@ -181,15 +187,7 @@ void ContactHandler::bounce(int index, Pair pair, Impact impact) {
     impact.velocity_after = velocity;
     impact.impulse = mass * (impact.velocity_after - impact.velocity_before);
   }
-  // else it lies there, or its flight is so low that the Segment does not show it
-  const double pull = -impact.normal.dot(motion.acceleration);
-  const double speed = -approach.dot(impact.normal);
-  const double no_time = kUnitRoundoff * run_.world().duration;
-  const double lowest_fall = std::max(pair.contact.memory.tolerance, std::abs(pull) * no_time * no_time);
-  const bool is_hit = speed > 0.0 && !is_lying(speed, std::max(0.0, pull), lowest_fall);
-  if (!group.empty()) {
-    run_.recorder().impacts(group);
-  } else if (is_hit) {
+  if (is_hit) {
     run_.recorder().impact(impact);
     warn_of_hidden_ties(run_.world(), run_.encounters(), pair, impact, moving, run_.recorder());
     if (gained > 0.0) run_.recorder().warn_of_gain(impact, gained);
@@ -222,8 +220,8 @@ void ContactHandler::bounce_off(int index, Pair pair, Impact impact) {
   }
   Bounce& last = last_bounces_[static_cast<std::size_t>(pair.id.body)];
   const Bounce flight = std::exchange(last, Bounce{pair.id.obstacle, t, pair.contact.point});
-  run_.recorder().sample(t, pair.id.body, SamplePhase::before);
   const auto end = [&](const std::string& reason) {
+    run_.recorder().sample(t, pair.id.body, SamplePhase::before);
     run_.recorder().impact(impact);
     run_.fail(t, reason);
   };
@@ -243,17 +241,17 @@ void ContactHandler::bounce_off(int index, Pair pair, Impact impact) {
   const double pull = before.speed > 0.0 ? std::abs(pair.contact.gap_curvature) : 2.0 * speed / std::abs(duration);
   const bool is_low = restitution < 1.0 ? is_below_flight(std::abs(before.speed), pull, tolerance)
                                         : is_lying(std::abs(before.speed), pull, tolerance);
-  if (is_again && is_low) return stay(index, pair, impact, instant);
+  const bool stays = is_again && is_low;
+  if (!stays && before.speed < 0.0 && is_hit(pair.contact) && run_.groups().handle(index, pair)) return;
+  run_.recorder().sample(t, pair.id.body, SamplePhase::before);
+  if (stays) return stay(index, pair, impact, instant);
   const double gained =
       bounce_solid(run_.world(), pair, surface, restitution, mass_of(body, t, instant.q), instant, impact);
   // what lies there has not hit
   if (is_hit(pair.contact) && before.speed < 0.0) run_.recorder().impact(impact);
   if (gained > 0.0) run_.recorder().warn_of_gain(impact, gained);
   warn_of_hidden_ties(run_.world(), run_.encounters(), pair, impact, moving, run_.recorder());
-  const NormalMotion after = normal_motion(run_.world(), pair, surface, instant.q, instant.rate());
-  if (after.acceleration <= 0.0 &&
-      is_below_flight(std::max(0.0, after.speed), -after.acceleration, pair.contact.memory.tolerance))
-    return stay(index, pair, impact, instant);
+  if (does_not_fly(instant, pair)) return stay(index, pair, impact, instant);
   if (const std::string failure = run_.lasting_contacts().release_by_speed(instant, pair.id.body); !failure.empty())
     return run_.fail(t, describe_lasting(pair.id.body, failure));
   instant.memories.insert(instant.memories.begin(), {pair.id, rebounded(pair.contact.memory)});
@@ -262,11 +260,19 @@ void ContactHandler::bounce_off(int index, Pair pair, Impact impact) {
   run_.advance(index);
 }
 
-void ContactHandler::stay(int index, const Pair& pair, const Impact& impact, Instant& instant) {
+bool ContactHandler::does_not_fly(const Instant& instant, const Pair& pair) const {
+  const std::optional<FrameMotion> surface = run_.encounters().frame(pair.id.obstacle, instant.time());
+  const NormalMotion motion = normal_motion(run_.world(), pair, surface, instant.q, instant.rate());
+  return motion.acceleration <= 0.0 &&
+         is_below_flight(std::max(0.0, motion.speed), -motion.acceleration, pair.contact.memory.tolerance);
+}
+
+bool ContactHandler::begin_stay(Instant& instant, const Pair& pair, const Impact& impact) {
   const double t = instant.time();
   const World::Body& body = body_of(pair);
   const auto fail = [&](const std::string& why) {
     run_.fail(t, "body '" + body.name + "' comes to rest on obstacle '" + obstacle_of(pair).name + "', " + why);
+    return false;
   };
   const auto contact = run_.lasting_contacts().contact_at(instant, pair.id, impact.point, impact.normal);
   if (!contact)
@@ -274,10 +280,19 @@ void ContactHandler::stay(int index, const Pair& pair, const Impact& impact, Ins
         "where trajet cannot follow it: contact that lasts is of corners, edges and faces of convex "
         "solids on flat faces");
   if (!body.inertia) return fail("and what becomes of that needs its inertia: give it a `mass` or a `density`");
-  if (const std::string failure = run_.lasting_contacts().begin(instant, *contact, impact, t); !failure.empty())
-    return fail(failure);
+  const std::string failure = run_.lasting_contacts().begin(instant, *contact, impact, t);
+  return failure.empty() || fail(failure);
+}
+
+void ContactHandler::stay(int index, const Pair& pair, const Impact& impact, Instant& instant) {
+  if (!begin_stay(instant, pair, impact)) return;
   go_on_from(index, pair, instant);
   run_.advance(index);
+}
+
+bool ContactHandler::settle(Instant& instant, const Pair& pair, const Impact& impact, double restitution) {
+  if (is_round(body_of(pair).solid)) return rest(instant, pair, impact, restitution, false);
+  return !does_not_fly(instant, pair) || begin_stay(instant, pair, impact);
 }
 
 void ContactHandler::go_on_from(int index, const Pair& pair, Instant& instant) {

@@ -16,6 +16,9 @@ class ContactHandler {
   void handle(int course, const Pair& met);
   /// A lasting contact of the course would pull from now on, or has come to its edge.
   void handle_end(int course);
+  /// Begins a rest where a body, behind its impact at the instant, will not fly any more; false if it cannot be
+  /// followed: then the run has ended.
+  bool settle(Instant& instant, const Pair& pair, const Impact& impact, double restitution);
 
  private:
   std::string describe_lasting(int body, const std::string& failure) const;
@@ -33,8 +36,12 @@ class ContactHandler {
   void bounce(int course, Pair pair, Impact impact);
   /// The same of a body that is no point or ball.
   void bounce_off(int course, Pair pair, Impact impact);
-  /// A solid that does not fly any more stays in contact.
+  /// Whether a solid that has bounced does not fly any more.
+  bool does_not_fly(const Instant& instant, const Pair& pair) const;
+  /// A solid that does not fly any more stays in contact, and the course goes on so.
   void stay(int course, const Pair& pair, const Impact& impact, Instant& instant);
+  /// The same within the instant alone; false if it cannot be followed, and the run has ended.
+  bool begin_stay(Instant& instant, const Pair& pair, const Impact& impact);
   /// The course goes on as the instant says, from the contact, on the side that the body came from.
   void go_on_from(int course, const Pair& pair, Instant& instant);
   /// Begins a rest where the body, after its impact, will not fly any more; false if it cannot be followed.

@@ -3,6 +3,8 @@
 #include <cmath>
 
 #include "body_bounce.hpp"
+#include "body_state.hpp"
+#include "group_handler.hpp"
 #include "impact_record.hpp"
 #include "impact_sides.hpp"
 #include "last_contact.hpp"
@@ -56,6 +58,7 @@ void MeetingHandler::handle(int course, const Meeting& met) {
       return run_.fail(time,
                        "body '" + body(each).name + "' has impact after impact at one instant, here " + names(found));
   if (world.direction() < 0.0) return run_.fail(time, names(found) + ": impacts have no meaning backward in time");
+  if (moves_on_alike(found)) return pass_on(found);
   if (const std::string doubt = describe_doubt(found); !doubt.empty())
     return run_.fail_unresolved(time, body(found.id.first).name, body(found.id.second).name, doubt);
 
@@ -116,6 +119,29 @@ std::string MeetingHandler::describe_doubt(const Meeting& meeting) {
          shortest_text(error) + " m/s: choose a finer tolerance or step";
 }
 
+bool MeetingHandler::moves_on_alike(const Meeting& meeting) {
+  const World& world = run_.world();
+  if (meeting.contact.status != ContactStatus::hit ||
+      world.surface_of_bodies(meeting.id.first, meeting.id.second).on_hit != OnHit::bounce)
+    return false;
+  const double time = meeting.contact.time;
+  double speed = 0.0, acceleration = 0.0, size = 0.0;
+  for (const int each : {meeting.id.first, meeting.id.second}) {
+    const Course& course = run_.course(run_.course_of(each));
+    const BodySlice slice = body(each).slice();
+    const Eigen::VectorXd q = course.state(time);
+    const double radius = bounding_radius(body(each).solid);
+    speed += Vector3(slice.velocity(q)).norm() + radius * angular_velocity(body(each), q).norm();
+    acceleration += Vector3(slice.velocity(course.rate(time, q))).norm();
+    size += Vector3(slice.position(q)).norm() + radius;
+  }
+  constexpr double kFewRoundings = 64.0 * kUnitRoundoff;
+  const GapMotion gap = gap_motion_of(world, meeting, first_course(meeting), second_course(meeting));
+  if (gap.speed < -kFewRoundings * speed || gap.speed > 0.0 || gap.acceleration < -kFewRoundings * acceleration)
+    return false;
+  return run_.meetings().stay_in_touch(meeting.id, kFewRoundings * size);
+}
+
 bool MeetingHandler::goes_on_from_contact(const Meeting& meeting) {
   const Course &first = first_course(meeting), &second = second_course(meeting);
   const GapMotion gap = gap_motion_of(run_.world(), meeting, first, second);
@@ -148,6 +174,7 @@ void MeetingHandler::bounce(const Meeting& meeting, const Surface& surface, Impa
   if (!(restitution >= 0.0 && restitution <= 1.0))
     return end(describe_impossible_restitution("bodies " + names(meeting), surface, restitution, speed));
 
+  if (run_.groups().handle(first_index, meeting)) return;
   for (const Meeting::Id& id : run_.meetings().met_at_once(meeting))
     run_.recorder().warn_of_tie(impact, body(id.first).name, body(id.second).name);
   sample(meeting, SamplePhase::before);

@@ -20,6 +20,8 @@ class MeetingHandler {
   void pass_on(const Meeting& meeting);
   /// Whether the contact is the last one still, from which the bodies part; then the motion goes on.
   bool goes_on_from_contact(const Meeting& meeting);
+  /// Whether they touch and move alike, but for rounding: then the motion goes on.
+  bool moves_on_alike(const Meeting& meeting);
   /// Why it is not certain that they meet, as far as the motions are known; else empty.
   std::string describe_doubt(const Meeting& meeting);
   void bounce(const Meeting& meeting, const Surface& surface, Impact impact);

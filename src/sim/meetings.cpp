@@ -215,14 +215,27 @@ void Meetings::remember(const Meeting::Id& id, const ContactMemory& memory) {
 
 bool Meetings::stay_in_contact(const Meeting::Id& id, double height) {
   Meeting& meeting = meetings_.find(id)->second;
-  const double time = meeting.contact.time;
   const std::optional<ContactMemory> memory = memory_of_last_contact(meeting.contact, meeting.memory, height);
-  if (!memory) return false;
-  meeting.memory = *memory;
+  if (memory) go_on(meeting, *memory);
+  return memory.has_value();
+}
+
+bool Meetings::stay_in_touch(const Meeting::Id& id, double tolerance) {
+  Meeting& meeting = meetings_.find(id)->second;
+  ContactMemory memory = rebounded(meeting.contact.memory);
+  memory.contact_time = meeting.contact.time;
+  memory.tolerance = std::max(memory.tolerance, tolerance);
+  if (meeting.memory.contact_time == memory.contact_time && meeting.memory.tolerance >= memory.tolerance) return false;
+  go_on(meeting, memory);
+  return true;
+}
+
+void Meetings::go_on(Meeting& meeting, const ContactMemory& memory) {
+  const double time = meeting.contact.time;
+  meeting.memory = memory;
   meeting.known_at = time;
   search(meeting, time);
-  changed_.insert(changed_.end(), {id.first, id.second});
-  return true;
+  changed_.insert(changed_.end(), {meeting.id.first, meeting.id.second});
 }
 
 }  // namespace trajet

@@ -47,6 +47,9 @@ class Meetings {
 
   /// The first meeting of the body on what was searched; null if there is none.
   const Meeting* first(int body) const;
+  /// The bodies that are near enough to be looked at, in order, and what is known of the body with one of them.
+  const std::vector<int>& others(int body) const { return window(body).others; }
+  const Meeting& meeting(const Meeting::Id& id) const { return meetings_.find(id)->second; }
   /// The other meetings of either body whose time cannot be told from that of this one.
   std::vector<Meeting::Id> met_at_once(const Meeting& meeting) const;
   /// Bodies meet at `first` or later in other ways than they did when that was asked last: their courses, in order.
@@ -59,6 +62,9 @@ class Meetings {
   /// A contact is still the last one, from which the bodies part: the gap may stay as small as it is up to this part of
   /// `height` (m). False if it already was.
   bool stay_in_contact(const Meeting::Id& id, double height);
+  /// The two touch at their meeting and go on together: gaps up to `tolerance` (m) are of that contact. False if that
+  /// was tried at this time already.
+  bool stay_in_touch(const Meeting::Id& id, double tolerance);
 
   /// How many pairs were searched so far.
   long searches() const { return searches_; }
@@ -77,6 +83,8 @@ class Meetings {
   const Course& course_of(int body) const;
   const World::Body& body(int index) const { return world_.bodies[static_cast<std::size_t>(index)]; }
   void close(int body);
+  /// Goes on behind a meeting with what is known then.
+  void go_on(Meeting& meeting, const ContactMemory& memory);
   /// The bodies that meet `body` and whose boxes overlap one, unless they are more than `most`.
   std::optional<std::vector<int>> near(int body, const Aabb& box, std::size_t most) const;
   /// Nothing happens to a pair up to time t: keeps what is known of it then.

@@ -140,6 +140,10 @@ void Recorder::impact(Impact impact) {
 }
 
 void Recorder::impacts(std::vector<Impact> group) {
+  if (group.size() > 1) {
+    ++group_count_;
+    for (Impact& each : group) each.group = group_count_;
+  }
   impact(group.front());
   for (Impact& each : std::span(group).subspan(1)) keep(std::move(each));
 }

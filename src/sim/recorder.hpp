@@ -42,7 +42,7 @@ class Recorder {
   void motion(Course& course, double t);
 
   void impact(Impact impact);
-  /// Impacts at one instant that were solved together.
+  /// Impacts at one instant that were resolved together: several have a number in common.
   void impacts(std::vector<Impact> group);
   /// From that time on a body is in contact with an obstacle in that way; or not any more.
   void contact(double time, PairId id, ImpactKind mode);
@@ -83,6 +83,7 @@ class Recorder {
   RunResult result_;
   int tie_count_ = 0;
   int gain_count_ = 0;
+  int group_count_ = 0;
   long next_sample_ = 0;
   std::optional<double> last_sample_;  // s, of all bodies
   std::optional<Impact> last_impact_;

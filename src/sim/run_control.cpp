@@ -12,6 +12,7 @@ Encounters& RunControl::encounters() const { return loop_.encounters_; }
 Meetings& RunControl::meetings() const { return loop_.meetings_; }
 Recorder& RunControl::recorder() const { return loop_.recorder_; }
 LastingContacts& RunControl::lasting_contacts() const { return loop_.lasting_contacts_; }
+GroupHandler& RunControl::groups() const { return loop_.groups_; }
 
 void RunControl::go_on(int course, const Instant& instant) const { loop_.go_on(course, instant); }
 void RunControl::advance(int course) const { loop_.advance(course); }

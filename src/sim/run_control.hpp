@@ -12,6 +12,7 @@
 
 namespace trajet {
 
+class GroupHandler;
 class RunLoop;
 
 /// What those who handle an incident of a run may do with it: read and change its parts, let its courses go on, or end
@@ -27,6 +28,7 @@ class RunControl {
   Meetings& meetings() const;
   Recorder& recorder() const;
   LastingContacts& lasting_contacts() const;
+  GroupHandler& groups() const;
 
   /// The course goes on as the instant says; then it must be advanced.
   void go_on(int course, const Instant& instant) const;

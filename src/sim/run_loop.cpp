@@ -36,6 +36,7 @@ RunLoop::RunLoop(const World& world, RunObserver& observer)
       control_(*this),
       events_(control_),
       contacts_(control_),
+      groups_(control_, contacts_),
       meeting_handler_(control_) {}
 
 RunLoop::Incident RunLoop::next(int index) const {

@@ -8,6 +8,7 @@
 #include "contact_handler.hpp"
 #include "encounters.hpp"
 #include "event_handler.hpp"
+#include "group_handler.hpp"
 #include "lasting_contacts.hpp"
 #include "meeting_handler.hpp"
 #include "meetings.hpp"
@@ -78,6 +79,7 @@ class RunLoop {
   RunControl control_;
   EventHandler events_;
   ContactHandler contacts_;
+  GroupHandler groups_;
   MeetingHandler meeting_handler_;
   bool has_started_ = false;
   bool running_ = true;

@@ -26,14 +26,14 @@ std::shared_ptr<const ConvexCore> core_of(const Solid& solid) {
 
 }  // namespace
 
-std::vector<double> heights_of_corners(const World& world, const RestingContact& contact,
+std::vector<Vector3> places_of_corners(const World& world, const RestingContact& contact,
                                        const std::optional<FrameMotion>& frame, const Eigen::VectorXd& q) {
   const World::Body& body = world.bodies[static_cast<std::size_t>(contact.body)];
   const Matrix3 R = rotation_of(body, body.slice(), q);
   const Vector3 position = body.slice().position(q);
   const Vector3& axis = contact.patch.axis;
   const Vector3 down_B = -(R.transpose() * (frame ? Vector3(frame->R * axis) : axis));
-  std::vector<double> heights;
+  std::vector<Vector3> places;
   for (int i = 0; i < static_cast<int>(contact.core->vertices.size()); ++i) {
     const SupportCorner corner = support_corner(*contact.core, i);
     Vector3 p_B = corner.p_B + corner.rounding * down_B;
@@ -42,9 +42,16 @@ std::vector<double> heights_of_corners(const World& world, const RestingContact&
       if (pulled.norm() <= kLevel * corner.spread.norm()) return {};
       p_B += corner.spread * pulled.normalized();
     }
-    const Vector3 place = position + R * p_B;
-    heights.push_back(axis.dot((frame ? frame->to_start(place) : place) - contact.patch.center));
+    places.push_back(position + R * p_B);
   }
+  return places;
+}
+
+std::vector<double> heights_of_corners(const World& world, const RestingContact& contact,
+                                       const std::optional<FrameMotion>& frame, const Eigen::VectorXd& q) {
+  std::vector<double> heights;
+  for (const Vector3& place : places_of_corners(world, contact, frame, q))
+    heights.push_back(contact.patch.axis.dot((frame ? frame->to_start(place) : place) - contact.patch.center));
   return heights;
 }
 

@@ -8,6 +8,12 @@
 
 namespace trajet {
 
+/// The lowest point of each corner of a solid above the flat patch of a contact, world, in the order of its core's
+/// vertices; none where a round face lies level. `frame`: of the obstacle, if it is driven; `q`: the state of the
+/// body's group.
+std::vector<Vector3> places_of_corners(const World& world, const RestingContact& contact,
+                                       const std::optional<FrameMotion>& frame, const Eigen::VectorXd& q);
+
 /// How high each corner of a solid is above the flat patch of a contact, m, in the order of its core's vertices; none
 /// where a round face lies level. `frame`: of the obstacle, if it is driven; `q`: the state of the body's group.
 std::vector<double> heights_of_corners(const World& world, const RestingContact& contact,

@@ -57,7 +57,8 @@ TEST(AtOneInstant, ACornerOfRectanglesTurnsAPointBack) {
           EXPECT_EQ(count(result, "wall_x"), 1);
           // the ball that has gone through the wall leaves its reach again
           EXPECT_EQ(count(result, "wall_y"), on_hit == "pass" && radius > 0.0 ? 2 : 1);
-          EXPECT_FALSE(result.warnings.empty());
+          // what bounces off both at once does so whatever their order; else rounding decides which is first
+          EXPECT_EQ(result.warnings.empty(), on_hit == "bounce");
           // there and back at 1 m/s in each direction
           const double back = -2.0 - 2.0 * radius;
           const Vector3 end = on_hit == "bounce" ? Vector3(back, back, 0)

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "trajet/collide/detect/contact.hpp"
+#include "trajet/collide/respond/simultaneous.hpp"
 #include "trajet/error.hpp"
 #include "trajet/event/crossing.hpp"
 #include "trajet/geom/triangle_mesh.hpp"
@@ -48,6 +49,7 @@ struct MethodOptions {
   long max_steps = 1'000'000;
   std::optional<Expression> max_seconds{};                             ///< s of elapsed time; none: no limit
   Locator locate = Locator::polynomial;                                ///< how the times of impacts are found
+  Simultaneous simultaneous = Simultaneous::reflections;               ///< what becomes of impacts at one instant
   OrientationWay orientation = OrientationWay::quaternion_normalized;  ///< how orientations are carried
   SourceLocation where{};                                              ///< of the name, or of the table
   SourceLocation orientation_where{};

@@ -179,6 +179,7 @@ struct World {
   long max_steps = 0;
   std::optional<double> max_seconds{};  ///< s, > 0, of elapsed time that a run may take
   Locator locate = Locator::polynomial;
+  Simultaneous simultaneous = Simultaneous::reflections;
   std::vector<NamedValue> parameters;
   std::map<std::string, std::shared_ptr<const LookupTable>> tables;
   std::vector<std::string> warnings;  ///< sentences on what the scene says in vain

@@ -62,6 +62,7 @@ struct Impact {
   double time_error_bound = 0.0;             ///< s
   std::optional<TouchedFeatures> touched{};  ///< of a hit or a graze: what touched; `point` is in the middle
   std::optional<ImpactPartner> partner{};    ///< where a body was met
+  std::optional<int> group{};                ///< one number for the impacts that were resolved together
 };
 
 /// A `when` crossed zero, or a law that switches at a zero of the state `sticks` there or `slips` off it.

@@ -72,18 +72,18 @@ Flat flat_part(const ConvexCore& core, const Vector3& direction, double margin, 
   return flat;
 }
 
-/// The part of a convex polygon, or stretch, to the left of the line from a to b, or within the margin of it.
+/// The part of a convex polygon, or stretch, to the left of the line from a to b; corners within the margin of it stay.
 Polygon left_of(const Polygon& p, const Point2& a, const Point2& b, double margin) {
   const Point2 d = (b - a).normalized();
-  const auto side = [&](const Point2& q) { return cross(d, q - a) + margin; };
+  const auto side = [&](const Point2& q) { return cross(d, q - a); };
   Polygon kept;
   const std::size_t n = p.size(), sides = n == 2 ? 1 : n;
-  if (n == 2 && side(p[0]) >= 0.0) kept.push_back(p[0]);
+  if (n == 2 && side(p[0]) >= -margin) kept.push_back(p[0]);
   for (std::size_t i = 0; i < sides; ++i) {
     const Point2 &q = p[i], &r = p[(i + 1) % n];
     const double from = side(q), to = side(r);
-    if ((from < 0.0) != (to < 0.0)) kept.push_back(q + (r - q) * (from / (from - to)));
-    if (to >= 0.0) kept.push_back(r);
+    if ((from < -margin) != (to < -margin)) kept.push_back(q + (r - q) * std::clamp(from / (from - to), 0.0, 1.0));
+    if (to >= -margin) kept.push_back(r);
   }
   return kept;
 }
