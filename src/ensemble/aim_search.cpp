@@ -21,7 +21,7 @@ struct Grid {
   int deepest_at_borders;  // where a label ends in the cell
   long most_motions;
 };
-constexpr std::array<Grid, 4> kGrids{{{64, 26, 14, 20'000}, {16, 12, 5, 20'000}, {8, 6, 2, 30'000}, {4, 4, 1, 30'000}}};
+constexpr std::array<Grid, 4> kGrids{{{64, 26, 14, 20'000}, {16, 12, 3, 10'000}, {8, 6, 1, 20'000}, {4, 4, 1, 20'000}}};
 constexpr int kDeepestOfFamily = 2;
 
 /// What the deviation from a linear model is taken to be at least, of the changes in the cell: a curve may pass
@@ -110,10 +110,23 @@ class CellSearch {
   /// How much a label's miss changes within a first cell.
   void note_change(const Cell& cell, const std::string& label) {
     const std::vector<const Passage*> passages = passages_in(cell, label);
-    double& change = changes_.try_emplace(label, -1.0).first->second;
+    double change = -1.0;
     for (const Passage* a : passages)
       for (const Passage* b : passages)
         if (a != nullptr && b != nullptr && a != b) change = std::max(change, (a->residual - b->residual).norm());
+    if (change >= 0.0) changes_[label].push_back(change);
+  }
+
+  /// The largest miss that a node of a cell can have beside a zero in the cell; infinite where that is not known. Of
+  /// the changes in first cells three quarters are taken for smooth ones: a label jumps where the passages of a leg
+  /// become more or fewer.
+  double reach(const Cell& cell, const std::string& label) {
+    constexpr double kMargin = 8.0;
+    std::vector<double>& changes = changes_[label];
+    if (changes.empty()) return std::numeric_limits<double>::infinity();
+    const auto typical = changes.begin() + static_cast<std::ptrdiff_t>(changes.size() * 3 / 4);
+    std::nth_element(changes.begin(), typical, changes.end());
+    return std::ldexp(kMargin * *typical, -cell.depth);
   }
 
   void queue(const Cell& cell, const std::string& label) {
@@ -137,14 +150,19 @@ class CellSearch {
       model.slope += share * misses[k] * nodes_[k].transpose();
     }
     double deviation = 0.0, change = 0.0, largest = 0.0;
+    double smallest = std::numeric_limits<double>::infinity();
     for (std::size_t k = 0; k < misses.size(); ++k) {
       deviation = std::max(deviation, (misses[k] - model.value - model.slope * nodes_[k]).norm());
       change = std::max(change, (misses[k] - misses.back()).norm());
       largest = std::max(largest, misses[k].norm());
+      smallest = std::min(smallest, misses[k].norm());
     }
     const Eigen::VectorXd best = least_within_box(model);
     const double least = (model.value + model.slope * best).norm();
     if (least > kSafety * std::max(deviation, kLeastDeviation * change)) return;
+
+    constexpr int kFirstHalvings = 2;
+    if (cell.depth >= kFirstHalvings && smallest > reach(cell, label)) return;  // a jump
 
     const bool is_family = static_cast<int>(n_) > model.rank();
     const double tolerance = flights_.at(place_in(cell, nodes_.back())).tolerance;
@@ -169,9 +187,7 @@ class CellSearch {
   /// Some nodes do not have the label: nothing but the misses of the others tells whether it has a zero.
   void search_at_border(const Cell& cell, const std::string& label, const std::vector<const Passage*>& passages) {
     constexpr int kFirstHalvings = 3;
-    const double change = changes_[label];
-    const double reach =
-        change < 0.0 ? std::numeric_limits<double>::infinity() : kSafety * std::ldexp(change, -cell.depth);
+    const double farthest = reach(cell, label);
     std::size_t best = 0;
     double least = std::numeric_limits<double>::infinity();
     for (std::size_t k = 0; k < passages.size(); ++k)
@@ -179,8 +195,9 @@ class CellSearch {
         least = passages[k]->residual.norm();
         best = k;
       }
-    if (least > reach) return;
-    const int deepest = change < 0.0 ? std::min(kFirstHalvings, grid_.deepest_at_borders) : grid_.deepest_at_borders;
+    if (least > farthest) return;
+    const int deepest =
+        std::isinf(farthest) ? std::min(kFirstHalvings, grid_.deepest_at_borders) : grid_.deepest_at_borders;
     if (cell.depth < deepest) return halve(cell, label);
     const MissFrame frame(passages[best]->direction);
     LinearMiss model;
@@ -239,7 +256,7 @@ class CellSearch {
   std::size_t n_;
   Grid grid_;
   std::vector<Eigen::VectorXd> nodes_ = nodes();
-  std::map<std::string, double> changes_;  // of each label's miss within a first cell; negative: not known
+  std::map<std::string, std::vector<double>> changes_;  // of each label's miss within first cells
   std::deque<std::pair<Cell, std::string>> queue_;
   std::set<std::pair<Cell, std::string>> queued_;  // ever
   AimRoots result_;
