@@ -124,6 +124,7 @@ CommandLine::CommandLine()
       add_command("check", "validate a scene without running it", [this] { return check_command(check_); }), check_);
   add_compare();
   add_sweep();
+  add_aim();
   add_lists();
 }
 
@@ -198,6 +199,21 @@ void CommandLine::add_sweep() {
       add_command("merge", "join the tables of the shards of a sweep", [this] { return merge_command(merge_); });
   merge.add_option("FILE", merge_.files, "tables that 'trajet sweep --shard' has written")->required();
   merge.add_option("--out", merge_.out, "write the whole table there, - for standard output")->type_name("FILE")->required();
+}
+
+void CommandLine::add_aim() {
+  CLI::App& command = add_command("aim", "solve for parameters so that a body hits a target",
+                                  [this] { return aim_command(aim_); });
+  add_scene_options(command, aim_.scene, aim_.overrides, aim_.quiet);
+  add_repeatable(command, "--vary", aim_.vary, "NAME=LOW:HIGH", "look for a parameter or a key in that range; repeatable");
+  add_word(command, "--hit", aim_.hit, "OBSTACLE", "hit the centre of that obstacle, which may move");
+  add_word(command, "--at", aim_.at, "X,Y,Z", "hit that point instead");
+  add_word(command, "--body", aim_.body, "NAME", "what shall hit, where the scene has several bodies");
+  add_repeatable(command, "--with", aim_.with, "COND",
+                 "take solutions only that fulfil this at the hit: \"speed > 20\", \"max(z) < 3\"; repeatable");
+  add_word(command, "--minimise,--minimize", aim_.minimise, "EXPR",
+           "take the one solution only where this is least at the hit: time, speed, ...");
+  add_file(command, "--json", aim_.json, "write the solutions there, - for standard output");
 }
 
 void CommandLine::add_lists() {

@@ -31,6 +31,7 @@ class CommandLine {
   void add_view();
   void add_compare();
   void add_sweep();
+  void add_aim();
   void add_lists();
   /// Throws InputError with the nearest command.
   void check_name(const std::string& word) const;
@@ -45,6 +46,7 @@ class CommandLine {
   CompareArguments compare_;
   SweepArguments sweep_;
   MergeArguments merge_;
+  AimArguments aim_;
   std::string example_;
   std::string shell_;
 };

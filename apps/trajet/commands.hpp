@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "aim_arguments.hpp"
 #include "sweep_arguments.hpp"
 #include "trajet/io/scene_overrides.hpp"
 #include "trajet/scene/scene.hpp"
@@ -64,6 +65,7 @@ struct ViewArguments : RunArguments {
 int run_command(const RunArguments& arguments);
 /// The same for a scene that comes from elsewhere than the arguments' names.
 int run_scene(const RunArguments& arguments, const std::function<Scene()>& read);
+int aim_command(const AimArguments& arguments);
 int sweep_command(const SweepArguments& arguments);
 int merge_command(const MergeArguments& arguments);
 int view_command(const ViewArguments& arguments);

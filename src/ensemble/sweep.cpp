@@ -13,6 +13,7 @@
 #include "trajet/ensemble/flight_extremes.hpp"
 #include "trajet/sim/observer_list.hpp"
 #include "trajet/sim/run.hpp"
+#include "varied_scene.hpp"
 
 namespace trajet {
 namespace {
@@ -28,24 +29,12 @@ class StopObserver : public RunObserver {
   const std::function<bool()>& should_stop_;
 };
 
-/// A scene whose varied quantities can be given values again and again.
-class VariedScene {
- public:
-  VariedScene(Scene scene, const SweepPlan& plan) : scene_(std::move(scene)) {
-    for (std::size_t i = 0; i < plan.quantity_count(); ++i) setters_.push_back(plan.quantity(i).bind(scene_));
-  }
-  VariedScene(const VariedScene&) = delete;  // the setters refer to the scene
-  VariedScene& operator=(const VariedScene&) = delete;
-
-  const Scene& with(std::span<const double> values) {
-    for (std::size_t i = 0; i < setters_.size(); ++i) setters_[i](values[i]);
-    return scene_;
-  }
-
- private:
-  Scene scene_;
-  std::vector<VariedQuantity::Setter> setters_;
-};
+/// The scene of a sweep's motions.
+VariedScene varied_scene(const Sweep& sweep) {
+  const SweepPlan& plan = sweep.plan();
+  return {sweep.scene(), plan.quantity_count(),
+          [&](std::size_t i) -> const VariedQuantity& { return plan.quantity(i); }};
+}
 
 }  // namespace
 
@@ -55,7 +44,7 @@ Sweep::Sweep(Scene scene, SweepPlan plan, std::vector<std::string> columns, cons
       columns_(columns.empty() ? default_columns(scene_) : std::move(columns), scene_, columns_where) {}
 
 Scene Sweep::variant(std::uint64_t index) const {
-  VariedScene varied(scene_, plan_);
+  VariedScene varied = varied_scene(*this);
   std::vector<double> values(plan_.quantity_count());
   PlanValues values_of(plan_);
   values_of(index, values);
@@ -65,7 +54,7 @@ Scene Sweep::variant(std::uint64_t index) const {
 class Sweep::Worker::State {
  public:
   explicit State(const Sweep& sweep)
-      : sweep_(sweep), varied_(sweep.scene(), sweep.plan()), plan_values_(sweep.plan()), reader_(sweep.columns()) {}
+      : sweep_(sweep), varied_(varied_scene(sweep)), plan_values_(sweep.plan()), reader_(sweep.columns()) {}
 
   SweepRow compute(std::uint64_t index, const std::function<bool()>& should_stop) {
     SweepRow row{.index = index, .values = std::vector<double>(sweep_.plan().quantity_count())};

@@ -39,6 +39,14 @@ void keep_dimension(const Measure& before, NamedExpression& parameter, Scene& sc
     parameter.value = Expression::quantity(*number, before.dimension, parameter.where);
 }
 
+/// LOW:HIGH or LOW:HIGH:COUNT is what other commands take.
+void refuse_range(const std::string& name, const std::string& value) {
+  if (value.find(':') == std::string::npos) return;
+  throw InputError({"--set " + name}, "one value expected, got the range '" + value +
+                                          "': many motions are computed by 'trajet sweep --vary " + name +
+                                          "=LOW:HIGH:COUNT', and 'trajet aim' finds the value that hits a target");
+}
+
 std::string without_blanks_around(std::string text) {
   text.erase(0, text.find_first_not_of(" \t"));
   text.erase(text.find_last_not_of(" \t") + 1);
@@ -62,6 +70,7 @@ void set_parameter(const std::string& assignment, Scene& scene) {
       key.set_word(without_quotes_around(value));
       return;
     }
+    refuse_range(name, value);
     detail::FormulaReader formulas = formulas_of(scene);
     Expression formula = formulas.read(value, where, key.dimension);
     formulas.read_tables(formula);
@@ -76,6 +85,7 @@ void set_parameter(const std::string& assignment, Scene& scene) {
     for (const NamedExpression& candidate : scene.parameters) known.push_back(candidate.name);
     throw InputError({"--set " + name}, "the scene has no parameter '" + name + "'" + did_you_mean(name, known));
   }
+  refuse_range(name, value);
   const Measure before = parameter_measures(scene).find(name)->second;
   detail::FormulaReader formulas = formulas_of(scene);
   parameter->where = {"--set " + name};

@@ -205,6 +205,23 @@ SampledQuantity read_sample(const std::string& text, const std::string& option, 
   return {reader.quantity(), distribution};
 }
 
+Vector3 read_point(const std::string& text, const std::string& option, const Scene& scene) {
+  std::string_view inside = trimmed(text);
+  if (inside.size() >= 2 && inside.front() == '[' && inside.back() == ']') inside = inside.substr(1, inside.size() - 2);
+  const std::vector<std::string> coordinates = parts(inside, ',');
+  const SourceLocation where{option};
+  if (coordinates.size() != 3) throw InputError(where, "a point x,y,z expected, got '" + text + "'");
+  detail::FormulaReader formulas(scene.file, scene.tables);
+  for (const NamedExpression& parameter : scene.parameters) formulas.add_name(parameter.name);
+  const ParameterSet parameters = evaluate_parameters(scene);
+  Vector3 point;
+  for (int i = 0; i < 3; ++i) {
+    const std::string& coordinate = coordinates[static_cast<std::size_t>(i)];
+    point[i] = SceneNumbers(parameters.symbols).scalar(formulas.read(with_unit_apart(coordinate), where, kLength), "a coordinate");
+  }
+  return point;
+}
+
 Correlation read_correlation(const std::string& text, const std::string& option,
                              const std::vector<SampledQuantity>& samples) {
   const Assignment assignment = split_assignment(text, option, "NAME,NAME=COEFFICIENT");

@@ -17,6 +17,10 @@ GridAxis read_range(const std::string& text, const std::string& option, Scene& s
 /// NAME=normal(MEAN,SD), uniform(LOW,HIGH), lognormal(MEAN,SD) or truncated(MEAN,SD,LOW,HIGH), likewise.
 SampledQuantity read_sample(const std::string& text, const std::string& option, Scene& scene);
 
+/// X,Y,Z of a command line, m: numbers, quantities or formulas of the scene's parameters as they stand. Throws InputError
+/// whose place is `option`.
+Vector3 read_point(const std::string& text, const std::string& option, const Scene& scene);
+
 /// NAME,NAME=COEFFICIENT of two of the sampled quantities.
 Correlation read_correlation(const std::string& text, const std::string& option,
                              const std::vector<SampledQuantity>& samples);
