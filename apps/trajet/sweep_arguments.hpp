@@ -6,19 +6,14 @@
 #include <vector>
 
 #include "trajet/io/scene_overrides.hpp"
+#include "trajet/io/sweep_plan_text.hpp"
 
 namespace trajet {
 
 /// What `trajet sweep` takes from the command line.
-struct SweepArguments {
+struct SweepArguments : SweepPlanTexts {
   std::string scene{};
   SceneOverrides overrides{};
-  std::vector<std::string> vary{};       ///< NAME=LOW:HIGH:COUNT each
-  std::vector<std::string> sample{};     ///< NAME=normal(MEAN,SD) each
-  std::vector<std::string> correlate{};  ///< NAME,NAME=COEFFICIENT each
-  std::optional<std::uint64_t> count{};
-  std::uint64_t seed = 0;
-  std::string design = "random";
   std::string report{};  ///< expressions, separated by commas; empty: those that suit the scene
   std::string out{};     ///< file name, `-` for standard output, empty for none
   std::string summary{};

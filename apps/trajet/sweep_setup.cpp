@@ -4,66 +4,15 @@
 
 #include <algorithm>
 #include <boost/crc.hpp>
-#include <charconv>
-#include <limits>
-#include <stdexcept>
 #include <utility>
 
 #include "scene_source.hpp"
-#include "trajet/io/variation_text.hpp"
-#include "trajet/portable.hpp"
+#include "trajet/io/sweep_plan_text.hpp"
 #include "trajet/text/decimal_number.hpp"
-#include "trajet/text/did_you_mean.hpp"
 #include "trajet/version.hpp"
 
 namespace trajet {
 namespace {
-
-constexpr std::uint64_t kDefaultCount = 1000;
-constexpr std::uint64_t kMostMotions = 1'000'000'000'000'000;
-
-SampleDesign design_of(const std::string& name) {
-  constexpr std::pair<std::string_view, SampleDesign> kDesigns[] = {
-      {"random", SampleDesign::random}, {"lhs", SampleDesign::latin_hypercube}, {"sobol", SampleDesign::sobol}};
-  for (const auto& [known, design] : kDesigns)
-    if (name == known) return design;
-  constexpr std::string_view kNames[] = {"random", "lhs", "sobol"};
-  throw InputError({"--design"}, "random, lhs or sobol expected, got '" + name + "'" + did_you_mean(name, kNames));
-}
-
-SweepPlan plan_of(const SweepArguments& arguments, Scene& scene) {
-  SweepPlan plan{.seed = arguments.seed, .design = design_of(arguments.design)};
-  for (const std::string& text : arguments.vary) {
-    GridAxis axis = read_range(text, "--vary", scene);
-    if (axis.count == 0)
-      throw InputError({"--vary " + axis.quantity.name},
-                       "a number of values is missing: LOW:HIGH:COUNT, got '" + text + "'");
-    plan.axes.push_back(std::move(axis));
-  }
-  for (const std::string& text : arguments.sample) plan.samples.push_back(read_sample(text, "--sample", scene));
-  if (plan.quantity_count() == 0)
-    throw InputError({"--vary"},
-                     "nothing varies: --vary NAME=LOW:HIGH:COUNT or --sample NAME=normal(MEAN,SD) expected");
-  for (std::size_t i = 0; i < plan.quantity_count(); ++i)
-    for (std::size_t j = 0; j < i; ++j)
-      if (plan.quantity(i).name == plan.quantity(j).name)
-        throw InputError({i < plan.axes.size() ? "--vary" : "--sample"},
-                         "'" + plan.quantity(i).name + "' varies twice");
-  for (const std::string& text : arguments.correlate)
-    plan.correlations.push_back(read_correlation(text, "--correlate", plan.samples));
-  if (arguments.count && plan.samples.empty())
-    throw InputError({"--count"}, "the number of motions is that of the grid: --count goes with --sample");
-  if (arguments.count == 0U) throw InputError({"--count"}, "a positive number expected");
-  plan.samples_per_node = arguments.count.value_or(plan.samples.empty() ? 1 : kDefaultCount);
-  if (plan.count() > kMostMotions)
-    throw InputError({arguments.vary.empty() ? "--count" : "--vary"}, "more than 1e15 motions");
-  try {
-    const PlanValues are_possible(plan);
-  } catch (const std::invalid_argument& error) {
-    throw InputError({"--correlate"}, error.what());
-  }
-  return plan;
-}
 
 /// "ci(hit == 'target') < 0.1%".
 UntilCondition until_of(const std::string& text) {
@@ -120,7 +69,7 @@ std::string fingerprint_of(const SweepArguments& arguments, const std::string& s
 SweepSetup make_sweep(const SweepArguments& arguments) {
   Scene scene = read_named_scene(arguments.scene);
   apply(arguments.overrides, scene);
-  SweepPlan plan = plan_of(arguments, scene);
+  SweepPlan plan = read_sweep_plan(arguments, scene);
   std::vector<std::string> columns =
       arguments.report.empty() ? default_columns(scene) : split_columns(arguments.report);
   const std::size_t column_count = columns.size();

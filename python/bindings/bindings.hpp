@@ -10,5 +10,6 @@ namespace py = pybind11;
 // What each source adds to the module `trajet._core`. The package's Python files make of it what users see.
 void bind_motions(py::module_& module);
 void bind_integrator(py::module_& module);
+void bind_ensembles(py::module_& module);
 
 }  // namespace trajet::python

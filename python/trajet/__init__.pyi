@@ -26,6 +26,61 @@ class SceneError(ValueError):
         key: Optional[str] = ...,
     ) -> None: ...
 
+class Sweep:
+    warnings: List[str]
+    def __len__(self) -> int: ...
+    def __getitem__(self, name: str) -> NDArray[Any]: ...
+    @property
+    def quantities(self) -> List[str]: ...
+    @property
+    def columns(self) -> List[str]: ...
+    @property
+    def rows(self) -> Records: ...
+    @property
+    def failures(self) -> Dict[int, str]: ...
+
+Range = Tuple[Value, Value]
+Grid = Tuple[Value, Value, int]
+
+def sweep(
+    scene: SceneLike,
+    vary: Union[None, str, Sequence[str], Mapping[str, Grid]] = ...,
+    sample: Union[None, str, Sequence[str], Mapping[str, str]] = ...,
+    *,
+    report: Union[str, Sequence[str]] = ...,
+    count: Optional[int] = ...,
+    seed: int = ...,
+    design: str = ...,
+    correlate: Optional[Mapping[Tuple[str, str], float]] = ...,
+    threads: int = ...,
+    set: Optional[Mapping[str, Value]] = ...,
+    **options: Union[None, float, str],
+) -> Sweep: ...
+
+class Aim:
+    def report(self) -> Dict[str, Any]: ...
+    @property
+    def status(self) -> str: ...
+    @property
+    def ok(self) -> bool: ...
+    @property
+    def solutions(self) -> List[Dict[str, Any]]: ...
+    @property
+    def closest(self) -> Optional[Dict[str, Any]]: ...
+
+def aim(
+    scene: SceneLike,
+    vary: Union[str, Sequence[str], Mapping[str, Range]],
+    hit: Optional[str] = ...,
+    *,
+    at: Optional[Sequence[Value]] = ...,
+    body: str = ...,
+    conditions: Union[str, Sequence[str]] = ...,
+    minimise: str = ...,
+    set: Optional[Mapping[str, Value]] = ...,
+    **options: Union[None, float, str],
+) -> Aim: ...
+
 class Motion:
     @property
     def status(self) -> str: ...

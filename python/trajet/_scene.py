@@ -4,14 +4,18 @@ from __future__ import annotations
 
 import errno
 import os
+import re
 
 from . import _core
 from ._document import Document, located
 from ._errors import SceneError
 
-# what a run may be told beside the scene, and how errors of the reader call it
-OPTIONS = {"method": "--method", "step": "--step", "rtol": "--rtol", "atol": "--atol", "end": "--end"}
-OPTIONS["orientation"] = "--orientation"
+# what a run may be told beside the scene
+OPTIONS = ("method", "step", "rtol", "atol", "end", "orientation")
+# how errors of the reader call what Python has as arguments
+OPTION = re.compile(r"--(\w+)(?: (.+))?")
+KEYS = {name: name for name in (*OPTIONS, "set", "vary", "sample", "correlate", "count", "design", "hit", "at", "body")}
+KEYS |= {"with": "conditions", "minimise": "minimise", "report": "report"}
 
 
 class Source:
@@ -41,13 +45,10 @@ class Source:
         try:
             return do()
         except SceneError as error:
-            option = error.file or ""
-            if option.startswith("--set "):
-                raise SceneError(error.message, key=f"set[{option[len('--set '):]!r}]") from None
-            if option == "--set":
-                raise SceneError(error.message, key="set") from None
-            if option in OPTIONS.values():
-                raise SceneError(error.message, key=option.removeprefix("--")) from None
+            option = OPTION.fullmatch(error.file or "")
+            if option and option[1] in KEYS:
+                name = f"[{option[2]!r}]" if option[2] else ""
+                raise SceneError(error.message, key=KEYS[option[1]] + name) from None
             if self._document is not None:
                 raise located(error, self._document) from None
             raise
