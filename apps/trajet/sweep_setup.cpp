@@ -14,6 +14,9 @@
 namespace trajet {
 namespace {
 
+/// Motions of a sweep that ends by `--until`, if nothing else is said: more than anybody computes.
+constexpr std::uint64_t kUntilItIsKnown = 1'000'000'000'000;
+
 /// "ci(hit == 'target') < 0.1%".
 UntilCondition until_of(const std::string& text) {
   const auto fault = [&] {
@@ -69,7 +72,9 @@ std::string fingerprint_of(const SweepArguments& arguments, const std::string& s
 SweepSetup make_sweep(const SweepArguments& arguments) {
   Scene scene = read_named_scene(arguments.scene);
   apply(arguments.overrides, scene);
-  SweepPlan plan = read_sweep_plan(arguments, scene);
+  SweepPlanTexts texts = arguments;
+  if (!arguments.until.empty() && !texts.count) texts.count = kUntilItIsKnown;
+  SweepPlan plan = read_sweep_plan(texts, scene);
   std::vector<std::string> columns =
       arguments.report.empty() ? default_columns(scene) : split_columns(arguments.report);
   const std::size_t column_count = columns.size();

@@ -117,12 +117,13 @@ bool EventWatch::wanted(int direction) const {
   return direction_ == CrossingDirection::any || (direction_ == CrossingDirection::rising) == (direction > 0);
 }
 
-void EventWatch::search(const Segment<>& segment, double from) {
+void EventWatch::search(const Segment<>& segment, double from, double until) {
   if (next_.found) return;  // where the motion was restarted
   next_ = {};
   const Path<Eigen::Dynamic> path(segment, inputs_);
-  const ComposedFunction function(path, ProgramFunction{&enclosures_, &inputs_, &state_}, from - segment.t0(),
-                                  segment.duration(), std::exchange(at_zero_, 0.0), true);
+  const double end = until == segment.t1() ? segment.duration() : until - segment.t0();
+  const ComposedFunction function(path, ProgramFunction{&enclosures_, &inputs_, &state_}, from - segment.t0(), end,
+                                  std::exchange(at_zero_, 0.0), true);
   const FunctionSample begin = function.at(function.begin());
   if (std::exchange(has_to_leave_, false) && last_.direction * begin.jet.curvature > 0.0 &&
       begin.jet.rate * begin.jet.rate <= 2.0 * std::abs(begin.jet.curvature) * begin.tolerance) {

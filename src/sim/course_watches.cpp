@@ -13,6 +13,11 @@ Crossing::Kind kind_of(ContactEnd end) {
   return end == ContactEnd::past_edge ? Crossing::Kind::past_edge : Crossing::Kind::mode;
 }
 
+/// Whether a motion at a contact ends.
+bool is_stop(ContactEnd end) {
+  return end == ContactEnd::slip_stops || end == ContactEnd::roll_stops || end == ContactEnd::spin_stops;
+}
+
 }  // namespace
 
 CourseWatches::CourseWatches(const World& world, int group, const HeldCourseLaw& law)
@@ -61,8 +66,22 @@ void CourseWatches::watch_holds() {
 }
 
 void CourseWatches::search(const Segment<>& segment) {
+  // the motion does not go on behind the first end of what holds it, where forces may have no enclosure any more: ends
+  // that show in the velocities alone are found first
+  double until = segment.t1();
+  const double direction = segment.t1() < segment.t0() ? -1.0 : 1.0;
+  const auto search = [&](Watch& watch) {
+    watch.watch.search(segment, segment.t0(), until);
+    const EventWatch::Crossing& found = watch.watch.next();
+    if (watch.kind == Crossing::Kind::event || !found.found) return;
+    constexpr double kTied = 4.0;  // error bounds: what cannot be told apart from it in time
+    const double end = found.time + direction * kTied * found.error_bound;
+    if (direction * (until - end) > 0.0) until = end;
+  };
   for (Watch& watch : watches_)
-    if (!is_asleep(watch)) watch.watch.search(segment, segment.t0());
+    if (is_stop(watch.end) && !is_asleep(watch)) search(watch);
+  for (Watch& watch : watches_)
+    if (!is_stop(watch.end) && !is_asleep(watch)) search(watch);
 }
 
 Crossing CourseWatches::next(const Segment<>& segment) const {

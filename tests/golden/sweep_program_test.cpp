@@ -214,9 +214,8 @@ TEST(SweepProgram, ReplaysOneMotion) {
 }
 
 TEST(SweepProgram, EndsWhenItKnowsEnough) {
-  const ProgramResult result =
-      run_trajet({"sweep", kRifleShot, "--sample", "theta=normal(0.05deg,0.03deg)", "--count", "1000000", "--until",
-                  "ci(hit == 'target') < 2%", "--report", "hit", "--out", "-"});
+  const ProgramResult result = run_trajet({"sweep", kRifleShot, "--sample", "theta=normal(0.05deg,0.03deg)", "--until",
+                                           "ci(hit == 'target') < 2%", "--report", "hit", "--out", "-"});
   EXPECT_EQ(result.exit_code, 0);
   const std::size_t rows = lines_of(result.out).size() - 1;
   // the share is 0.96: a plain interval is that narrow after 4 · 0.96 · 0.04 / 0.02² = 380 motions

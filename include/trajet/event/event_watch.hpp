@@ -48,8 +48,10 @@ class EventWatch {
   void stand_on(double t, const double* q, int side);
   /// Whether the last restart was such a turn.
   bool has_turned() const { return has_turned_; }
-  /// Finds the first crossing on the Segment behind `from`, which lies on it; remembered until the watch moves on.
-  void search(const Segment<>& segment, double from);
+  /// Finds the first crossing on the Segment behind `from`, which lies on it; remembered until the watch moves on. What
+  /// comes behind `until` is not looked for.
+  void search(const Segment<>& segment, double from, double until);
+  void search(const Segment<>& segment, double from) { search(segment, from, segment.t1()); }
   const Crossing& next() const { return next_; }
   /// The crossing found has been dealt with: it changed nothing.
   void pass() { last_ = std::exchange(next_, {}); }
