@@ -83,8 +83,8 @@ TEST_P(KilledSweep, GoesOnToTheSameBits) {
   const TemporaryFolder folder;
   const auto command = [&](const std::string& out, const std::vector<std::string>& more) {
     std::vector<std::string> words{
-        "sweep", kRifleShot, "--sample", "theta=normal(0.05deg,0.03deg)", "--count", "4000", "--seed", "8",
-        "--out", out,        "--report", "t,hit,max(z),impact(1).z",      "--quiet"};
+        "sweep", kRifleShot, "--sample", "theta=normal(0.05deg,0.03deg)", "--count", "4000",      "--seed", "8",
+        "--out", out,        "--report", "t,hit,max(z),impact(1).z",      "--quiet", "--threads", "1"};
     words.insert(words.end(), more.begin(), more.end());
     return words;
   };
@@ -162,7 +162,7 @@ struct RankEnvironment {
 TEST(SweepProgram, IsComputedBySeveralProcesses) {
   const TemporaryFolder folder;
   const auto command = [&](const std::string& out, const std::vector<std::string>& more) {
-    std::vector<std::string> words{"sweep", kRifleShot, "--vary",   "theta=-1deg:1deg:1001", "--quiet",
+    std::vector<std::string> words{"sweep", kRifleShot, "--vary",   "theta=-1deg:1deg:4001", "--quiet",
                                    "--out", out,        "--report", "t,hit,max(z)"};
     words.insert(words.end(), more.begin(), more.end());
     return words;
