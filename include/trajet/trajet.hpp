@@ -1,9 +1,12 @@
 #pragma once
 
-/// All that a program needs that computes motions: scenes and their files, motions, comparisons, reports and pages; and
-/// `solve` for a law that is a lambda. `docs/cpp.md` is the guide.
+/// All that a program needs that computes motions: scenes and their files, motions, sweeps, aiming, comparisons,
+/// reports and pages; and `solve` for a law that is a lambda. `docs/cpp.md` is the guide.
 
+#include "trajet/ensemble/aim.hpp"
+#include "trajet/ensemble/sweep.hpp"
 #include "trajet/error.hpp"
+#include "trajet/io/aim_json.hpp"
 #include "trajet/io/compare_report.hpp"
 #include "trajet/io/csv_writer.hpp"
 #include "trajet/io/gltf.hpp"
@@ -11,6 +14,8 @@
 #include "trajet/io/scene_file.hpp"
 #include "trajet/io/scene_overrides.hpp"
 #include "trajet/io/scene_schema.hpp"
+#include "trajet/io/sweep_plan_text.hpp"
+#include "trajet/io/variation_text.hpp"
 #include "trajet/ode/registry.hpp"
 #include "trajet/ode/solve.hpp"
 #include "trajet/scene/scene.hpp"

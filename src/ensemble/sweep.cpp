@@ -101,14 +101,15 @@ void run_sweep(const Sweep& sweep, const SweepRange& range, const std::function<
   tbb::enumerable_thread_specific<std::unique_ptr<Sweep::Worker>> workers;
   std::atomic<bool> is_over{false};
   const std::function<bool()> stops = [&] { return is_over.load(std::memory_order_relaxed) || should_stop(); };
+  const std::uint64_t last = std::min(range.last, sweep.plan().count());
   std::uint64_t next = range.first;
 
   const auto next_block = [&](tbb::flow_control& control) {
     SweepBlock block{.first = next};
-    if (next >= range.last || stops())
+    if (next >= last || stops())
       control.stop();
     else
-      block.rows.resize(std::min(range.block, range.last - next));
+      block.rows.resize(std::min(range.block, last - next));
     next += block.rows.size();
     return block;
   };

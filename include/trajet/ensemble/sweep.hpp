@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -65,7 +66,7 @@ class Sweep {
 /// How a range of motions is computed.
 struct SweepRange {
   std::uint64_t first = 0;
-  std::uint64_t last = 0;  ///< behind the last one
+  std::uint64_t last = std::numeric_limits<std::uint64_t>::max();  ///< behind the last one, or behind all
   std::uint64_t block = 64;
   int threads = 0;  ///< 0: as many as the machine has
 };
@@ -75,7 +76,8 @@ struct SweepRange {
 ///
 /// `take` is called by one thread at a time; false ends the sweep. `should_stop` may be called by several; once it is
 /// true, blocks that are not complete are dropped.
-void run_sweep(const Sweep& sweep, const SweepRange& range, const std::function<bool(SweepBlock&&)>& take,
-               const std::function<bool()>& should_stop);
+void run_sweep(
+    const Sweep& sweep, const SweepRange& range, const std::function<bool(SweepBlock&&)>& take,
+    const std::function<bool()>& should_stop = [] { return false; });
 
 }  // namespace trajet
