@@ -24,6 +24,14 @@ CLI::Validator positive_number() {
   return {check, "", "positive"};
 }
 
+CLI::Validator not_negative() {
+  const auto check = [](const std::string& text) {
+    const std::optional<double> value = finite_number(text);
+    return value && *value >= 0.0 ? std::string() : "a number from 0 on expected, got '" + text + "'";
+  };
+  return {check, "", "not negative"};
+}
+
 /// Takes the blanks around a word away.
 CLI::Validator trimmed() {
   const auto trim = [](std::string& text) {
@@ -56,8 +64,7 @@ void add_repeatable(CLI::App& command, const char* name, std::vector<std::string
 }
 
 void add_scene_options(CLI::App& command, std::string& scene, SceneOverrides& overrides, bool& quiet) {
-  command.add_option("SCENE", scene, "scene file (TOML), - for standard input, or a built-in scene's name")
-      ->required();
+  command.add_option("SCENE", scene, "scene file (TOML), - for standard input, or a built-in scene's name")->required();
   add_repeatable(command, "--set", overrides.parameters, "NAME=VALUE",
                  "replace a parameter or a key (ball.velocity); repeatable");
   add_word(command, "--method", overrides.method, "METHOD", "integration method, see 'trajet methods'");
@@ -180,13 +187,14 @@ void CommandLine::add_sweep() {
                  "random values, also uniform(LOW,HIGH), lognormal(MEAN,SD), truncated(MEAN,SD,LOW,HIGH); repeatable");
   add_repeatable(command, "--correlate", sweep_.correlate, "NAME,NAME=R", "correlation of two samples; repeatable");
   add_word(command, "--count", sweep_.count, "N", "number of samples, default: 1000").check(positive_number());
-  add_word(command, "--seed", sweep_.seed, "S", "seed of the samples, default: 0");
+  add_word(command, "--seed", sweep_.seed, "S", "seed of the samples, default: 0").check(not_negative());
   add_word(command, "--design", sweep_.design, "DESIGN", "of samples: random, lhs or sobol");
   add_word(command, "--report", sweep_.report, "LIST", "what to report: t, ball.x, hit, impact(1).t, max(ball.z), ...");
   add_file(command, "--out", sweep_.out, "write the table there, as CSV (- for standard output) or HDF5 (.h5)");
   add_file(command, "--summary", sweep_.summary, "write what it comes to there as JSON, - for standard output");
   add_word(command, "--threads", sweep_.threads, "N", "default: as many as the machine has").check(positive_number());
-  add_word(command, "--until", sweep_.until, "COND", "end when the share is known so well: \"ci(hit == 'target') < 0.1%\"");
+  add_word(command, "--until", sweep_.until, "COND",
+           "end when the share is known so well: \"ci(hit == 'target') < 0.1%\"");
   command.add_flag("--resume", sweep_.resume, "go on with the table of a sweep that was ended");
   add_word(command, "--shard", sweep_.shard, "I/N", "compute part I of N, I from 1; 'trajet merge' joins them");
   add_word(command, "--only", sweep_.only, "INDEX", "run that one motion, with the options of 'trajet run'");
@@ -198,14 +206,17 @@ void CommandLine::add_sweep() {
   CLI::App& merge =
       add_command("merge", "join the tables of the shards of a sweep", [this] { return merge_command(merge_); });
   merge.add_option("FILE", merge_.files, "tables that 'trajet sweep --shard' has written")->required();
-  merge.add_option("--out", merge_.out, "write the whole table there, - for standard output")->type_name("FILE")->required();
+  merge.add_option("--out", merge_.out, "write the whole table there, - for standard output")
+      ->type_name("FILE")
+      ->required();
 }
 
 void CommandLine::add_aim() {
-  CLI::App& command = add_command("aim", "solve for parameters so that a body hits a target",
-                                  [this] { return aim_command(aim_); });
+  CLI::App& command =
+      add_command("aim", "solve for parameters so that a body hits a target", [this] { return aim_command(aim_); });
   add_scene_options(command, aim_.scene, aim_.overrides, aim_.quiet);
-  add_repeatable(command, "--vary", aim_.vary, "NAME=LOW:HIGH", "look for a parameter or a key in that range; repeatable");
+  add_repeatable(command, "--vary", aim_.vary, "NAME=LOW:HIGH",
+                 "look for a parameter or a key in that range; repeatable");
   add_word(command, "--hit", aim_.hit, "OBSTACLE", "hit the centre of that obstacle, which may move");
   add_word(command, "--at", aim_.at, "X,Y,Z", "hit that point instead");
   add_word(command, "--body", aim_.body, "NAME", "what shall hit, where the scene has several bodies");

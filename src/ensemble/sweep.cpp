@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <optional>
 #include <span>
 #include <utility>
 
@@ -41,7 +42,22 @@ VariedScene varied_scene(const Sweep& sweep) {
 Sweep::Sweep(Scene scene, SweepPlan plan, std::vector<std::string> columns, const SourceLocation& columns_where)
     : scene_(std::move(scene)),
       plan_(std::move(plan)),
-      columns_(columns.empty() ? default_columns(scene_) : std::move(columns), scene_, columns_where) {}
+      columns_(columns.empty() ? default_columns(scene_) : std::move(columns), scene_, columns_where) {
+  require_a_motion();
+}
+
+void Sweep::require_a_motion() const {
+  std::optional<InputError> fault;
+  for (const std::uint64_t index : {std::uint64_t{0}, plan_.count() / 2, plan_.count() - 1}) {
+    try {
+      make_world(variant(index));
+      return;
+    } catch (const InputError& error) {
+      if (!fault) fault = error;
+    }
+  }
+  throw InputError(*fault);
+}
 
 Scene Sweep::variant(std::uint64_t index) const {
   VariedScene varied = varied_scene(*this);

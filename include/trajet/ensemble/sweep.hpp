@@ -58,6 +58,8 @@ class Sweep {
   };
 
  private:
+  void require_a_motion() const;
+
   Scene scene_;
   SweepPlan plan_;
   ReportColumns columns_;
