@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "csv_field.hpp"
 #include "json_text.hpp"
 #include "trajet/sim/names.hpp"
 #include "trajet/version.hpp"
@@ -47,15 +48,10 @@ Json object(const ComparisonRow& row, const Comparison& comparison) {
   return object;
 }
 
-/// A value as a cell: text that holds a comma or a quotation mark between quotation marks, these doubled.
+/// A value as a cell.
 std::string cell(const Json& value) {
   if (value.is_null()) return "";
-  if (!value.is_string()) return value.dump();
-  const std::string text = value.get<std::string>();
-  if (text.find_first_of(",\"\n") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text) quoted += c == '"' ? "\"\"" : std::string(1, c);
-  return quoted + "\"";
+  return value.is_string() ? detail::csv_field(value.get<std::string>()) : value.dump();
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <iterator>
 #include <optional>
 
+#include "csv_field.hpp"
 #include "trajet/error.hpp"
 #include "trajet/text/decimal_number.hpp"
 
@@ -16,20 +17,6 @@ namespace {
 
 void append_number(std::string& text, double value) {
   fmt::format_to(std::back_inserter(text), FMT_COMPILE("{}"), value);
-}
-
-/// In quotes where it holds what would end it (RFC 4180).
-void append_field(std::string& text, std::string_view field) {
-  if (field.find_first_of(",\"\n\r") == std::string_view::npos) {
-    text += field;
-    return;
-  }
-  text += '"';
-  for (const char c : field) {
-    if (c == '"') text += '"';
-    text += c;
-  }
-  text += '"';
 }
 
 }  // namespace
@@ -48,7 +35,7 @@ std::string csv_line(const SweepHeader& header) {
   for (const auto* names : {&header.quantities, &header.columns})
     for (const std::string& name : *names) {
       line += ',';
-      append_field(line, name);
+      line += detail::csv_field(name);
     }
   return line + "\n";
 }
@@ -63,7 +50,7 @@ void append_csv_line(const SweepRow& row, std::size_t column_count, std::string&
     text += ',';
     const Cell& cell = row.cells[i];
     if (const auto* number = std::get_if<double>(&cell)) append_number(text, *number);
-    if (const auto* word = std::get_if<std::string>(&cell)) append_field(text, *word);
+    if (const auto* word = std::get_if<std::string>(&cell)) text += detail::csv_field(*word);
   }
   text += '\n';
 }
