@@ -66,6 +66,8 @@ inline py::dict impact_columns(const Motion& motion) {
   table["with_velocity_after"] = of_partner(&ImpactPartner::velocity_after);
   table["with_angular_velocity_before"] = of_partner(&ImpactPartner::angular_velocity_before);
   table["with_angular_velocity_after"] = of_partner(&ImpactPartner::angular_velocity_after);
+  table["group"] =
+      column(all, 1, [](I i) { return one(i.group ? *i.group : std::numeric_limits<double>::quiet_NaN()); });
   table["features"] = texts(all, [](I i) {
     return i.touched
                ? std::string(trajet::name(i.touched->of_body)) + " " + std::string(trajet::name(i.touched->of_obstacle))

@@ -1,5 +1,6 @@
 """Motions: the same as the program's, questions, errors."""
 
+import math
 import os
 import pickle
 import signal
@@ -264,3 +265,14 @@ def test_methods_are_those_of_the_program():
     names = [method.name for method in trajet.methods()]
     assert names[0] == "euler" and "taylor" in names
     assert next(m for m in trajet.methods() if m.name == "dopri5").aliases == ("ode45", "RK45")
+
+
+def test_impacts_resolved_together_have_one_number():
+    ball = {"shape": "sphere", "radius": 0.5, "mass": 1}
+    balls = [{"name": name, "position": [x, 0, 0], **ball} for name, x in zip("abc", (-2, 0, 1))]
+    balls[0]["velocity"] = [1, 0, 0]
+    motion = trajet.run({"time": {"end": 2}, "body": balls})
+    assert motion.impacts["group"].tolist() == [1, 1]
+    assert motion.velocity("c", 2.0).tolist() == [1, 0, 0]
+    alone = trajet.run({"time": {"end": 2}, "body": balls[:2]})
+    assert len(alone.impacts) == 1 and math.isnan(alone.impacts["group"][0])
