@@ -7,17 +7,12 @@
 #include "trajet/ensemble/report_columns.hpp"
 #include "trajet/portable.hpp"
 #include "trajet/text/name.hpp"
+#include "trajet/text/outer_parts.hpp"
 
 namespace trajet {
 namespace {
 
 bool is_blank(char c) { return c == ' ' || c == '\t'; }
-
-std::string_view trimmed(std::string_view text) {
-  while (!text.empty() && is_blank(text.front())) text.remove_prefix(1);
-  while (!text.empty() && is_blank(text.back())) text.remove_suffix(1);
-  return text;
-}
 
 /// Reads a text from left to right.
 class Scanner {
@@ -109,28 +104,7 @@ constexpr std::string_view kOwnNames[] = {"r",  "v",  "w",  "x",  "y",      "z",
 
 }  // namespace
 
-std::vector<std::string> split_columns(std::string_view list) {
-  std::vector<std::string> parts;
-  int depth = 0;
-  char quote = '\0';
-  std::size_t begin = 0;
-  for (std::size_t i = 0; i <= list.size(); ++i) {
-    const char c = i < list.size() ? list[i] : ',';
-    if (quote != '\0') {
-      if (c == quote) quote = '\0';
-    } else if (c == '\'' || c == '"') {
-      quote = c;
-    } else if (c == '(' || c == '[') {
-      ++depth;
-    } else if (c == ')' || c == ']') {
-      --depth;
-    }
-    if (i < list.size() && (c != ',' || depth > 0 || quote != '\0')) continue;
-    parts.emplace_back(trimmed(list.substr(begin, i - begin)));
-    begin = i + 1;
-  }
-  return parts;
-}
+std::vector<std::string> split_columns(std::string_view list) { return outer_parts(list, ','); }
 
 ReportReader::ReportReader(const Scene& scene, const SourceLocation& where) : where_(where) {
   const auto add = [this](const std::string& name) {

@@ -14,32 +14,12 @@
 #include "trajet/scene/scene_units.hpp"
 #include "trajet/text/decimal_number.hpp"
 #include "trajet/text/did_you_mean.hpp"
+#include "trajet/text/outer_parts.hpp"
 
 namespace trajet {
 namespace {
 
 constexpr double kMostOfAxis = 1e15;
-
-std::string_view trimmed(std::string_view text) {
-  text.remove_prefix(std::min(text.find_first_not_of(" \t"), text.size()));
-  return text.substr(0, text.find_last_not_of(" \t") + 1);
-}
-
-/// The parts of a text between separators outside parentheses and brackets.
-std::vector<std::string> parts(std::string_view text, char separator) {
-  std::vector<std::string> result;
-  int depth = 0;
-  std::size_t begin = 0;
-  for (std::size_t i = 0; i <= text.size(); ++i) {
-    const char c = i < text.size() ? text[i] : separator;
-    if (c == '(' || c == '[') ++depth;
-    if (c == ')' || c == ']') --depth;
-    if (i < text.size() && (c != separator || depth > 0)) continue;
-    result.emplace_back(trimmed(text.substr(begin, i - begin)));
-    begin = i + 1;
-  }
-  return result;
-}
 
 /// "1deg" as "1 deg": in a command line a blank costs quotes.
 std::string with_unit_apart(const std::string& text) {
@@ -151,7 +131,7 @@ std::uint64_t count_of(const std::string& text, const SourceLocation& where) {
 
 GridAxis read_range(const std::string& text, const std::string& option, Scene& scene) {
   const Assignment assignment = split_assignment(text, option, "NAME=LOW:HIGH:COUNT");
-  const std::vector<std::string> ends = parts(assignment.value, ':');
+  const std::vector<std::string> ends = outer_parts(assignment.value, ':');
   if (ends.size() < 2 || ends.size() > 3)
     throw InputError(assignment.where, "LOW:HIGH:COUNT expected, got '" + assignment.value + "'");
   QuantityReader reader(assignment, scene);
@@ -182,7 +162,7 @@ SampledQuantity read_sample(const std::string& text, const std::string& option, 
     throw InputError(where, "unknown distribution '" + kind + "'" + did_you_mean(kind, names));
   }
   const std::vector<std::string> texts =
-      parts(std::string_view(assignment.value).substr(open + 1, assignment.value.size() - open - 2), ',');
+      outer_parts(std::string_view(assignment.value).substr(open + 1, assignment.value.size() - open - 2), ',');
   if (texts.size() != known->second)
     throw InputError(
         where, kind + " takes " + std::to_string(known->second) + " numbers, got " + std::to_string(texts.size()));
@@ -208,7 +188,7 @@ SampledQuantity read_sample(const std::string& text, const std::string& option, 
 Vector3 read_point(const std::string& text, const std::string& option, const Scene& scene) {
   std::string_view inside = trimmed(text);
   if (inside.size() >= 2 && inside.front() == '[' && inside.back() == ']') inside = inside.substr(1, inside.size() - 2);
-  const std::vector<std::string> coordinates = parts(inside, ',');
+  const std::vector<std::string> coordinates = outer_parts(inside, ',');
   const SourceLocation where{option};
   if (coordinates.size() != 3) throw InputError(where, "a point x,y,z expected, got '" + text + "'");
   detail::FormulaReader formulas(scene.file, scene.tables);
@@ -217,7 +197,8 @@ Vector3 read_point(const std::string& text, const std::string& option, const Sce
   Vector3 point;
   for (int i = 0; i < 3; ++i) {
     const std::string& coordinate = coordinates[static_cast<std::size_t>(i)];
-    point[i] = SceneNumbers(parameters.symbols).scalar(formulas.read(with_unit_apart(coordinate), where, kLength), "a coordinate");
+    point[i] = SceneNumbers(parameters.symbols)
+                   .scalar(formulas.read(with_unit_apart(coordinate), where, kLength), "a coordinate");
   }
   return point;
 }
@@ -225,7 +206,7 @@ Vector3 read_point(const std::string& text, const std::string& option, const Sce
 Correlation read_correlation(const std::string& text, const std::string& option,
                              const std::vector<SampledQuantity>& samples) {
   const Assignment assignment = split_assignment(text, option, "NAME,NAME=COEFFICIENT");
-  const std::vector<std::string> names = parts(assignment.name, ',');
+  const std::vector<std::string> names = outer_parts(assignment.name, ',');
   if (names.size() != 2 || names[0] == names[1])
     throw InputError({option}, "two sampled quantities expected: NAME,NAME=COEFFICIENT, got '" + text + "'");
   const auto find = [&](const std::string& name) {
