@@ -65,9 +65,13 @@ std::vector<ContactQuestion> ContactSettling::questions(const BodyTerms<double>&
   for (std::size_t i = 0; i < own.size(); ++i) {
     const RestingContact& contact = instant_.contacts[static_cast<std::size_t>(own[i])];
     const SustainedContact sustained = sustained_contact(world_, contact);
+    const bool turns = body().rotation && body().inertia && bounding_radius(body().solid) > 0.0;
+    // what turns about corners that slide does not go straight on but by symmetry, which nothing shows cheaply
+    const bool is_of_corners = turns && contact.core && contact.corners.size() < 3;
     ContactQuestion question{.friction = sustained.friction,
-                             .turns = body().rotation && body().inertia && bounding_radius(body().solid) > 0.0,
-                             .may_go_straight = contact.patch.is_flat() && !sustained.turns,
+                             .turns = turns,
+                             .may_go_straight = contact.patch.is_flat() && !sustained.turns && !is_of_corners,
+                             .is_of_corners = is_of_corners,
                              .before = contact.mode,
                              .speed = speed_scale(terms.points[static_cast<std::size_t>(terms.contacts[i].points[0])]),
                              .radius = bounding_radius(body().solid),
@@ -221,6 +225,9 @@ bool ContactSettling::take_sinking(const BodyTerms<double>& terms, const std::ve
     moment += each.moment;
   }
   const Vector3 turning = terms.inverse_inertia * moment;
+  // a corner that does not bear any more hardly moves: what the rounding of the time leaves of it takes none back
+  constexpr double kTipped = 1e-6;
+  const double least = (has_tipped_ ? kTipped : kNone) * acceleration.norm();
   bool has_any = false;
   for (const int index : own()) {
     RestingContact& one = contact(index);
@@ -239,7 +246,7 @@ bool ContactSettling::take_sinking(const BodyTerms<double>& terms, const std::ve
           at.normal.dot(at.slip_rate + acceleration + turning.cross(at.arm)) + at.normal_rate.dot(at.slip);
       const bool sinks =
           speed < -none || ((speed <= none || is_slow(at, heights[static_cast<std::size_t>(all.corners[i])])) &&
-                            faster < -kNone * acceleration.norm());
+                            faster < -least);
       if (!sinks) continue;
       one.corners.push_back(all.corners[i]);
       has_any = true;
@@ -266,6 +273,7 @@ void ContactSettling::stand_still() {
 
 std::string ContactSettling::settle(const std::vector<EndedMode>& ended, const Release& release) {
   constexpr int kMostRounds = 50;
+  has_tipped_ = ranges::any_of(ended, [](const EndedMode& each) { return each.end == ContactEnd::tips; });
   for (int round = 0; round < kMostRounds; ++round) {
     kinds_.clear();
     const std::vector<int> own = this->own();
@@ -277,12 +285,13 @@ std::string ContactSettling::settle(const std::vector<EndedMode>& ended, const R
     std::string failure;
     if (!stop(*terms, asked, modes_by_velocity(*terms, asked), failure)) continue;
     if (!failure.empty()) return failure;
-    restitution_ = 0.0;
+    const bool has_bounced = std::exchange(restitution_, 0.0) > 0.0;
     int gone = -1;
     if (!keep_touching(*(terms = look()), gone)) {
       release(gone);
       continue;
     }
+    if (has_bounced) continue;  // what flies too low for a flight is stopped
     terms = look();
     // what others have bounced off may come back at once
     if (are_closing(*terms) && round < kMostRounds / 2) continue;
@@ -294,6 +303,7 @@ std::string ContactSettling::settle(const std::vector<EndedMode>& ended, const R
       } else {
         narrow(contact(own[pulling]),
                terms->contacts[pulling].remaining[static_cast<std::size_t>(decision.pulled_side)]);
+        has_tipped_ = true;
       }
       continue;
     }

@@ -81,6 +81,7 @@ class ContactSettling {
   Instant& instant_;
   int body_;
   double restitution_;
+  bool has_tipped_ = false;  // of corners that touched some would have to pull
   std::vector<Kind> kinds_;
 };
 

@@ -160,6 +160,9 @@ double Course::turning_limit(double limit) const {
     const double longest = 2.0 * kTurn / (speed + std::sqrt(speed * speed + 2.0 * kTurn * faster));
     if (longest < std::abs(limit - t)) limit = t + world_.direction() * longest;
   }
+  // and the friction of what slides, which has the direction of its slip
+  const double longest = held_law_.time_of_slips(t, end_state_);
+  if (longest > 0.0 && longest < std::abs(limit - t)) limit = t + world_.direction() * longest;
   return limit;
 }
 

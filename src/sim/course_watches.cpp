@@ -15,7 +15,8 @@ Crossing::Kind kind_of(ContactEnd end) {
 
 /// Whether a motion at a contact ends.
 bool is_stop(ContactEnd end) {
-  return end == ContactEnd::slip_stops || end == ContactEnd::roll_stops || end == ContactEnd::spin_stops;
+  return end == ContactEnd::slip_stops || end == ContactEnd::roll_stops || end == ContactEnd::spin_stops ||
+         end == ContactEnd::one_stops;
 }
 
 }  // namespace

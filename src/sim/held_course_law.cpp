@@ -1,5 +1,8 @@
 #include "held_course_law.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
 #include <utility>
 
 #include "trajet/portable.hpp"
@@ -52,7 +55,9 @@ bool HeldCourseLaw::take(const std::vector<RestingContact>& contacts, std::vecto
   }
   held_.reset();
   ends_.clear();
-  if (!contacts_.empty() || !holds_.empty()) held_ = std::make_unique<ProgramSystem>(with(contacts_, holds_, &ends_));
+  slips_.clear();
+  if (!contacts_.empty() || !holds_.empty())
+    held_ = std::make_unique<ProgramSystem>(with(contacts_, holds_, &ends_, &slips_));
   return true;
 }
 
@@ -74,12 +79,24 @@ std::vector<const World::Rotation*> HeldCourseLaw::pushed_rotations() const {
   return pushed;
 }
 
+double HeldCourseLaw::time_of_slips(double t, const Eigen::VectorXd& q) const {
+  double longest = std::numeric_limits<double>::infinity();
+  for (const Program& slips : slips_) {
+    std::vector<double> squares(slips.outputs.size());
+    Evaluator<double> evaluate(slips);
+    evaluate(t, q.data(), squares.data());
+    for (std::size_t i = 0; i + 1 < squares.size(); i += 2)
+      if (squares[i + 1] > 0.0) longest = std::min(longest, 0.5 * std::sqrt(squares[i] / squares[i + 1]));
+  }
+  return longest;
+}
+
 bool HeldCourseLaw::is_held(int event) const {
   return ranges::any_of(holds_, [event](const EventHold& hold) { return hold.event == event; });
 }
 
 Program HeldCourseLaw::with(const std::vector<RestingContact>& contacts, const std::vector<EventHold>& holds,
-                            std::vector<ContactEndCondition>* ends) const {
+                            std::vector<ContactEndCondition>* ends, std::vector<Program>* slips) const {
   Program law = group().law;
   for (const int body : group().bodies) {
     if (!are_plain(contacts, body)) {
@@ -87,6 +104,7 @@ Program HeldCourseLaw::with(const std::vector<RestingContact>& contacts, const s
       if (!sustained) continue;
       law = std::move(sustained->law);
       if (ends != nullptr) add_ends(std::move(sustained->ends), contacts, body, *ends);
+      if (slips != nullptr && !sustained->slips.outputs.empty()) slips->push_back(std::move(sustained->slips));
       continue;
     }
     const int offset = world_.bodies[static_cast<std::size_t>(body)].offset;

@@ -30,9 +30,12 @@ class HeldCourseLaw {
   std::vector<const World::Rotation*> pushed_rotations() const;
   /// What ends the contacts that are not plain: their `contact` counts `contacts`.
   const std::vector<ContactEndCondition>& ends() const { return ends_; }
-  /// The group's law with contacts and holds. `ends`: if not null, gets what ends the contacts that are not plain.
-  Program with(const std::vector<RestingContact>& contacts, const std::vector<EventHold>& holds,
-               std::vector<ContactEndCondition>* ends = nullptr) const;
+  /// Over how short a time no slip that friction follows changes by more than half of itself, s.
+  double time_of_slips(double t, const Eigen::VectorXd& q) const;
+  /// The group's law with contacts and holds.
+  Program with(const std::vector<RestingContact>& contacts, const std::vector<EventHold>& holds) const {
+    return with(contacts, holds, nullptr, nullptr);
+  }
   /// The law stays on the branches that are true between two times, s.
   void keep_within(double first, double last);
 
@@ -41,6 +44,9 @@ class HeldCourseLaw {
   ProgramSystem& system() const { return held_ ? *held_ : *free_; }
 
  private:
+  /// `ends`, `slips`: if not null, get what ends the contacts that are not plain, and what slips there.
+  Program with(const std::vector<RestingContact>& contacts, const std::vector<EventHold>& holds,
+               std::vector<ContactEndCondition>* ends, std::vector<Program>* slips) const;
   const World::Group& group() const { return world_.groups[static_cast<std::size_t>(group_)]; }
 
   const World& world_;
@@ -50,6 +56,7 @@ class HeldCourseLaw {
   std::vector<RestingContact> contacts_;
   std::vector<EventHold> holds_;
   std::vector<ContactEndCondition> ends_;
+  std::vector<Program> slips_;  // as ContactLaw has them
 };
 
 }  // namespace trajet

@@ -336,13 +336,11 @@ std::string LastingContacts::handle_end(Instant& instant, int index, ContactEnd 
   if (!are_plain(instant.contacts, instant.contacts[static_cast<std::size_t>(index)].body))
     ContactSettling(world_, encounters_, instant, instant.contacts[static_cast<std::size_t>(index)].body).look();
   const RestingContact contact = instant.contacts[static_cast<std::size_t>(index)];
-  if (end == ContactEnd::one_stops)
-    return "it turns about one of its corners, which sticks while others slide: that is not computed yet";
   if (end == ContactEnd::touches) return touch(instant, index, time_error_bound);
   if (end == ContactEnd::tips) {
     const auto points = contact_points({sustained_contact(world_, contact)}).front();
     narrow(instant.contacts[static_cast<std::size_t>(index)], points.remaining[static_cast<std::size_t>(detail)]);
-    return release_by_force(instant, contact.body);
+    return release_by_force(instant, contact.body, {{{contact.body, contact.obstacle}, end}});
   }
   if (end != ContactEnd::pull && end != ContactEnd::past_edge)
     return release_by_force(instant, contact.body, {{{contact.body, contact.obstacle}, end}});

@@ -212,6 +212,7 @@ class RootSearch {
 
   void mark_curved(const Point& left, const Point& right) {
     if (!differ_in_sign(left.jet.rate, right.jet.rate)) return mark_monotone(left, right);
+    if (stays_off_zero(left, right)) return mark_definite(left.jet.value > 0.0 ? 1 : -1, right);
     const double time = refine_root(left.time, left.jet.rate, right.time, right.jet.rate,
                                     [this](double t, double& value, double& rate) {
                                       const Jet jet = function_.at(t).jet;
@@ -222,6 +223,22 @@ class RootSearch {
     if (differ_in_sign(left.jet.value, extremum.jet.value)) mark_crossing(left, extremum);
     mark(extremum, true);
     if (!stopped_) mark_monotone(extremum, right);
+  }
+
+  /// Whether a function that is curved one way, with an extremum between the ends, certainly has no zero there: where it
+  /// bends towards zero its ends bound it, else the tangents there do.
+  static bool stays_off_zero(const Point& left, const Point& right) {
+    const double tolerance = std::max(left.tolerance, right.tolerance);
+    const double sign = left.jet.value > 0.0 ? 1.0 : -1.0;
+    const double at_left = sign * left.jet.value, at_right = sign * right.jet.value;
+    if (!(at_left > tolerance && at_right > tolerance)) return false;
+    const double width = right.time - left.time;
+    const double down = sign * left.jet.rate * width, up = sign * right.jet.rate * width;
+    if (down >= 0.0) return true;
+    // of the tangents' crossing; rates are rounded
+    constexpr double kMargin = 1e-6;
+    const double drop = down * (at_right - up - at_left) / (down - up);
+    return at_left + drop - kMargin * (std::abs(drop) + std::abs(up)) > tolerance;
   }
 
   /// All within twice the tolerance. A convex function that vanishes inside is within the tolerance in the middle.

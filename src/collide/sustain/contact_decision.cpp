@@ -5,50 +5,14 @@
 #include <optional>
 #include <utility>
 
+#include "contact_ways.hpp"
+#include "slip_onset.hpp"
+
 namespace trajet {
 namespace {
 
 using State = Resistance::State;
-
-/// A speed so small of those at the contact is none: far above rounding.
-constexpr double kNoSpeed = 1e-12;
-/// And so small a difference between the points of a contact none of their directions.
-constexpr double kStraight = 1e-13;
-
-Vector3 along_surface(const Vector3& v, const Vector3& normal) { return v - v.dot(normal) * normal; }
-
-/// The three ways in which a contact resists, as one.
-enum class Way { slip, roll, spin };
-constexpr Way kWays[] = {Way::slip, Way::roll, Way::spin};
-
-Resistance& resistance(ContactMode& mode, Way way) {
-  return way == Way::slip ? mode.slip : way == Way::roll ? mode.roll : mode.spin;
-}
-
-/// What a motion, or a force against it, is in that way.
-Vector3 part(Way way, const Vector3& of_slip, const Vector3& of_turning, const Vector3& normal) {
-  if (way == Way::slip) return along_surface(of_slip, normal);
-  return way == Way::roll ? along_surface(of_turning, normal) : Vector3(of_turning.dot(normal) * normal);
-}
-
-ContactEnd start_of(Way way) {
-  return way == Way::slip   ? ContactEnd::slip_starts
-         : way == Way::roll ? ContactEnd::roll_starts
-                            : ContactEnd::spin_starts;
-}
-
-double coefficient(const ContactQuestion& question, Way way) {
-  if (way == Way::slip) return question.friction.slip;
-  if (!question.turns) return 0.0;
-  return way == Way::roll ? question.friction.roll : question.friction.spin;
-}
-
-/// Lets a motion begin, or go on, with that velocity or acceleration.
-void set_moving(Resistance& it, Way way, const Vector3& motion, const Vector3& normal) {
-  it.state = State::moving;
-  it.direction = motion.normalized();
-  it.sign = way == Way::spin ? std::copysign(1.0, motion.dot(normal)) : 0.0;
-}
+using namespace detail;
 
 std::vector<FrictionCoefficients> friction_of(const std::vector<ContactQuestion>& questions) {
   std::vector<FrictionCoefficients> friction;
@@ -72,6 +36,8 @@ class Decision {
 
   ContactDecision decide(std::vector<ContactMode> modes) {
     modes_ = std::move(modes);
+    is_gripped_anew_.assign(modes_.size(), false);
+    if (impulses_ && !begin_slips()) return failed("friction neither holds the contact nor lets it slide");
     const std::size_t most = 4 * modes_.size() + 4;
     for (std::size_t round = 0; round < most; ++round) {
       solve();
@@ -121,29 +87,46 @@ class Decision {
 
   std::optional<Excess> largest_excess() {
     std::optional<Excess> largest;
+    const auto take = [&](const Excess& excess) {
+      if (excess.ratio > (largest ? largest->ratio : Excess().ratio)) largest = excess;
+    };
     for (std::size_t c = 0; c < modes_.size(); ++c)
       for (const Way way : kWays) {
+        if (way == Way::slip && !terms_.contacts[c].is_one()) {
+          if (const auto ratio = slip_ratio(c)) take({c, way, *ratio});
+          continue;
+        }
         if (!resistance(modes_[c], way).is_held()) continue;
-        const double force = resisting(c, way);
+        const double force = part(way, forces_[c].force, forces_[c].torque, first_point(c).normal).norm();
         const double limit = coefficient(questions_[c], way) * forces_[c].normal;
         // what has begun to move does so, though rounding may still hold it
         const bool begins = questions_[c].has_ended(start_of(way)) && force > 0.0;
-        const double ratio = begins ? kBegins : force > 0.0 ? force / limit : 0.0;
-        if (ratio > (largest ? largest->ratio : Excess().ratio)) largest = Excess{c, way, ratio};
+        take({c, way, begins ? kBegins : force > 0.0 ? force / limit : 0.0});
       }
     return largest;
   }
 
-  const ContactTerms<double>& first_point(std::size_t c) const {
-    return terms_.points[static_cast<std::size_t>(terms_.contacts[c].points[0])];
+  /// Of several points, how much of what friction can do those have to do that are held.
+  std::optional<double> slip_ratio(std::size_t c) const {
+    const ContactMode& mode = modes_[c];
+    const double coefficient = questions_[c].friction.slip;
+    double ratio = 0.0;
+    if (const int sticking = mode.sticking_point(); sticking >= 0) {
+      const double friction = forces_[c].sticking.norm();
+      ratio = friction > 0.0 ? friction / (coefficient * forces_[c].shares[static_cast<std::size_t>(sticking)]) : 0.0;
+    } else if (mode.slip.is_held()) {
+      for (const Vector3& each : held_friction(terms_, terms_.contacts[c], mode, forces_[c]))
+        ratio = std::max(ratio, each.norm() / coefficient);
+    } else {
+      return std::nullopt;
+    }
+    constexpr double kAtLimit = 1e-6;
+    const bool begins = questions_[c].has_ended(ContactEnd::slip_starts) && !impulses_;
+    return begins && ratio > 1.0 - kAtLimit ? kBegins : ratio;
   }
 
-  /// How strongly what is held is held; of several points slip is held by a force and a torque.
-  double resisting(std::size_t c, Way way) const {
-    const Vector3& normal = first_point(c).normal;
-    const double force = part(way, forces_[c].force, forces_[c].torque, normal).norm();
-    if (terms_.contacts[c].is_one()) return force;
-    return std::hypot(force, forces_[c].torque.dot(normal) / terms_.contacts[c].spread);
+  const ContactTerms<double>& first_point(std::size_t c) const {
+    return terms_.points[static_cast<std::size_t>(terms_.contacts[c].points[0])];
   }
 
   /// The acceleration of what a resistance resists; of several points that of their middle.
@@ -161,37 +144,171 @@ class Decision {
 
   /// Lets go what does not hold. Its direction is that of its acceleration, on which the friction along it depends.
   bool begin_motion(const Excess& excess) {
+    if (excess.way == Way::slip) return begin_slip(excess.contact);
     const std::size_t c = excess.contact;
-    const Vector3& normal = first_point(c).normal;
     const ContactQuestion& question = questions_[c];
     Resistance& it = resistance(modes_[c], excess.way);
-    const bool is_slip = excess.way == Way::slip;
-    Vector3 motion = -part(excess.way, forces_[c].force, forces_[c].torque, normal);
-    constexpr double kTwist = 1e-9;
-    const bool twists = !terms_.contacts[c].is_one() &&
-                        std::abs(forces_[c].torque.dot(normal)) > kTwist * terms_.contacts[c].spread * motion.norm();
-    it.follows =
-        excess.way != Way::spin && (!question.may_go_straight || twists ||
-                                    question.has_ended(is_slip ? ContactEnd::slip_bends : ContactEnd::roll_bends));
-    if (twists) {
-      set_moving(it, excess.way, motion.norm() > 0.0 ? motion : first_point(c).tangents[0], normal);
-      it.begins = true;
-      it.scale = question.speed;
+    const Vector3 motion = -part(excess.way, forces_[c].force, forces_[c].torque, first_point(c).normal);
+    const double per_force = terms_.inverse_mass * forces_[c].force.norm();
+    it.follows = false;
+    if (!begin_along(it, excess.way, c, motion, per_force)) return false;
+    it.follows = excess.way == Way::roll && (!question.may_go_straight || question.has_ended(ContactEnd::roll_bends));
+    it.begins = it.follows;
+    it.scale = scale_of_beginning(c, per_force) / std::max(question.radius, 1e-300);
+    return true;
+  }
+
+  /// The scale of the speeds at a contact where something begins to move, m/s.
+  double scale_of_beginning(std::size_t c, double per_force) const {
+    constexpr double kScale = 1e-6;  // of the run's time
+    return std::max(questions_[c].speed, kScale * per_force * questions_[c].time_scale);
+  }
+
+  /// Friction of an impact acts against the slip that it leaves.
+  bool begin_slips() {
+    for (std::size_t c = 0; c < modes_.size(); ++c) {
+      if (!modes_[c].slip.is_moving()) continue;
+      const double scale = modes_[c].slip.scale;
+      modes_[c].slip = {.state = State::held, .scale = scale};
+      if (!terms_.contacts[c].is_one()) modes_[c].points.assign(terms_.contacts[c].points.size(), {});
+      solve();
+      if (!begin_slip(c)) return false;
+    }
+    return true;
+  }
+
+  /// Lets points of a contact slide that do not hold, each against its own acceleration. Where only one of them holds,
+  /// the others turn about it; where all do, it is their grips that were wrong.
+  bool begin_slip(std::size_t c) {
+    ContactMode& mode = modes_[c];
+    const std::size_t count = terms_.contacts[c].points.size();
+    const int sticking = mode.sticking_point();
+    std::vector<std::size_t> still;
+    for (std::size_t i = 0; i < count; ++i)
+      if (sticking < 0 || static_cast<int>(i) == sticking) still.push_back(i);
+    const SlipOnset onset = onset_of(c, still);
+    if (!onset.is_found) return false;
+    std::vector<Vector3> directions;
+    for (const Eigen::Vector2d& rate : onset.rates)
+      directions.push_back(
+          (rate.x() * first_point(c).tangents[0] + rate.y() * first_point(c).tangents[1]).stableNormalized());
+    if (sticking >= 0) {
+      let_go(mode, c, directions[0]);
+      return true;
+    }
+    if (onset.hold_all() && !is_gripped_anew_[c] && (count > 1 || impulses_)) {
+      is_gripped_anew_[c] = true;
+      for (std::size_t i = 0; i < mode.points.size(); ++i)
+        mode.points[i].grip = onset.creep > 0.0 ? 1.0 / std::hypot(onset.rates[i].norm() / onset.creep, 1.0) : 1.0;
       return true;
     }
     const double per_force = terms_.inverse_mass * forces_[c].force.norm();
-    const bool follows = it.follows;
-    it.follows = false;
-    const bool has_begun = excess.way == Way::slip ? find_direction(it, c, motion, per_force)
-                                                   : begin_along(it, excess.way, c, motion, per_force);
-    if (!has_begun) return false;
-    it.follows = follows;
-    motion = it.direction;
-    constexpr double kScale = 1e-6;  // of the run's time
-    const double unit = is_slip ? 1.0 : std::max(question.radius, 1e-300);
+    Resistance& it = mode.slip;
+    set_moving(it, Way::slip, directions[0], first_point(c).normal);
+    it.scale = scale_of_beginning(c, per_force);
+    constexpr double kSame = 1e-9;
+    const bool is_straight = std::all_of(directions.begin(), directions.end(),
+                                         [&](const Vector3& each) { return (each - directions[0]).norm() <= kSame; });
+    // an impact's friction has the direction that was found, whatever follows
+    const bool bends = !questions_[c].may_go_straight || questions_[c].has_ended(ContactEnd::slip_bends);
+    it.follows = !is_straight || (bends && !impulses_);
     it.begins = it.follows;
-    it.scale = std::max(question.speed / unit, kScale * per_force / unit * question.time_scale);
+    mode.points.clear();
+    if (count == 1 && !(it.begins && questions_[c].is_of_corners)) return true;
+    for (const Vector3& each : directions) mode.points.push_back({PointSlip::State::begins, each});
+    const auto held = std::find(onset.holds.begin(), onset.holds.end(), true);
+    if (!onset.hold_all() && held != onset.holds.end()) turn_about(mode, c, held - onset.holds.begin(), directions);
     return true;
+  }
+
+  /// The points turn about one that sticks, in those directions.
+  void turn_about(ContactMode& mode, std::size_t c, std::ptrdiff_t center, const std::vector<Vector3>& directions) {
+    const auto point = [&](std::size_t i) -> const ContactTerms<double>& {
+      return terms_.points[static_cast<std::size_t>(terms_.contacts[c].points[i])];
+    };
+    double turning = 0.0;
+    for (std::size_t i = 0; i < directions.size(); ++i) {
+      const Vector3 arm = point(i).arm - point(static_cast<std::size_t>(center)).arm;
+      mode.points[i].state = PointSlip::State::turns;
+      turning += point(i).normal.dot(arm.cross(directions[i]));
+    }
+    mode.points[static_cast<std::size_t>(center)].state = PointSlip::State::sticks;
+    mode.slip.sign = std::copysign(1.0, turning);
+    mode.slip.begins = false;
+  }
+
+  /// The point about which the others turn begins to slide in that direction.
+  void let_go(ContactMode& mode, std::size_t c, const Vector3& direction) {
+    const ContactPoints& contact = terms_.contacts[c];
+    const std::vector<PointSlip> before = mode.points;
+    std::vector<Vector3> turning;
+    double speed = 0.0;
+    for (std::size_t i = 0; i < before.size(); ++i) {
+      turning.push_back(slip_direction(terms_, contact, mode, i));
+      const ContactTerms<double>& at = terms_.points[static_cast<std::size_t>(contact.points[i])];
+      speed = std::max(speed, along_surface(at.slip, at.normal).norm());
+    }
+    mode.slip.begins = speed <= kBegun * mode.slip.scale;
+    for (std::size_t i = 0; i < before.size(); ++i) {
+      if (before[i].state == PointSlip::State::sticks)
+        mode.points[i] = {PointSlip::State::begins, direction};
+      else if (mode.slip.begins)
+        mode.points[i] = {PointSlip::State::begins, turning[i]};
+      else
+        mode.points[i] = {};
+    }
+  }
+
+  /// How points of a contact begin to move that do not: all, or one of several.
+  SlipOnset onset_of(std::size_t c, const std::vector<std::size_t>& still) const {
+    const ContactPoints& contact = terms_.contacts[c];
+    const bool is_one = still.size() == 1;
+    std::vector<ContactMode> modes = modes_;
+    if (contact.points.size() == still.size())
+      modes[c].slip = {};
+    else
+      for (std::size_t i = 0; i < contact.points.size(); ++i)
+        modes[c].points[i] = {PointSlip::State::begins, slip_direction(terms_, contact, modes_[c], i)};
+    const std::vector<ContactUnknown> unknowns = independent_unknowns(terms_, modes, friction_);
+    const auto free = contact_forces<double>(terms_, modes, friction_, unknowns, impulses_ ? &terms_ : nullptr);
+    const std::vector<ContactRates> by_free = rates_by(terms_, free);
+    const auto point = [&](std::size_t i) -> const ContactTerms<double>& {
+      return terms_.points[static_cast<std::size_t>(contact.points[i])];
+    };
+    Vector3 middle = Vector3::Zero();
+    for (const std::size_t i : still) middle += point(i).arm / static_cast<double>(still.size());
+    const Vector3* tangents = first_point(c).tangents;
+    const auto along = [&](const Vector3& v) { return Eigen::Vector2d(tangents[0].dot(v), tangents[1].dot(v)); };
+    const Eigen::Index numbers = is_one ? 2 : 3;
+    std::vector<OnsetPoint> points;
+    for (const std::size_t i : still) {
+      OnsetPoint& each = points.emplace_back();
+      const auto rates = static_cast<std::size_t>(contact.points[i]);
+      each.free = along((impulses_ ? point(i).slip : point(i).slip_rate) + by_free[rates].slip);
+      each.normal = free[c].shares[i];
+      each.share.leftCols(2).setIdentity();
+      const Eigen::Vector2d arm = along(point(i).arm - middle);
+      if (!is_one) each.share.col(2) << -arm.y(), arm.x();
+    }
+    for (Eigen::Index j = 0; j < numbers; ++j) {
+      ContactForce<double> unit{0.0, Vector3::Zero(), Vector3::Zero(), Vector3::Zero(), {}, Vector3::Zero()};
+      if (j < 2) unit.force = tangents[j];
+      unit.moment = j < 2 ? middle.cross(unit.force) : first_point(c).normal;
+      const std::vector<ContactRates> by_unit = rates_by(terms_, {unit});
+      BodyTerms<double> moved = terms_;
+      for (std::size_t i = 0; i < moved.points.size(); ++i) {
+        moved.points[i].slip = by_unit[i].slip;
+        moved.points[i].turning = by_unit[i].turning;
+      }
+      const auto forces = contact_forces<double>(terms_, modes, friction_, unknowns, &moved);
+      const std::vector<ContactRates> by_forces = rates_by(terms_, forces);
+      for (std::size_t i = 0; i < still.size(); ++i) {
+        const auto rates = static_cast<std::size_t>(contact.points[still[i]]);
+        points[i].by_wrench.col(j) = along(by_unit[rates].slip + by_forces[rates].slip);
+        points[i].normal_by_wrench[j] = forces[c].shares[still[i]];
+      }
+    }
+    return find_onset(points, questions_[c].friction.slip);
   }
 
   static constexpr double kNoAcceleration = 1e-9;  // of what the forces give
@@ -200,7 +317,7 @@ class Decision {
   bool begin_along(Resistance& it, Way way, std::size_t c, Vector3 motion, double per_force) {
     constexpr int kRounds = 50;
     constexpr double kSettled = 1e-15;
-    const double unit = way == Way::slip ? 1.0 : std::max(questions_[c].radius, 1e-300);
+    const double unit = std::max(questions_[c].radius, 1e-300);
     for (int i = 0; i < kRounds; ++i) {
       const Vector3 direction = motion.normalized();
       set_moving(it, way, motion, first_point(c).normal);
@@ -215,92 +332,17 @@ class Decision {
     return false;
   }
 
-  /// The same of slip, where a body's inertia may turn the acceleration far from the direction of the force: all
-  /// directions are looked at for one in which both agree.
-  bool find_direction(Resistance& it, std::size_t c, const Vector3& motion, double per_force) {
-    if (begin_along(it, Way::slip, c, motion, per_force)) return true;
-    const Vector3 normal = first_point(c).normal, x = motion.normalized(), y = normal.cross(x);
-    const auto aside = [&](double angle) {
-      set_moving(it, Way::slip, std::cos(angle) * x + std::sin(angle) * y, normal);
-      solve();
-      const Vector3 faster = acceleration(c, Way::slip);
-      return std::pair(it.direction.cross(faster).dot(normal), it.direction.dot(faster));
-    };
-    constexpr int kDirections = 64, kHalvings = 60;
-    constexpr double kTurn = 6.283185307179586;
-    double before = 0.0;
-    auto at_before = aside(before);
-    for (int i = 1; i <= kDirections; ++i) {
-      const double angle = kTurn * i / kDirections;
-      const auto at = aside(angle);
-      if (at_before.first * at.first <= 0.0 && at.second > 0.0 && at_before.second > 0.0) {
-        double low = before, high = angle;
-        for (int k = 0; k < kHalvings; ++k) {
-          const double middle = 0.5 * (low + high);
-          (aside(middle).first * at_before.first > 0.0 ? low : high) = middle;
-        }
-        return aside(low).second > 0.0;
-      }
-      before = angle;
-      at_before = at;
-    }
-    return false;
-  }
-
   const BodyTerms<double>& terms_;
   const std::vector<ContactQuestion>& questions_;
   std::vector<FrictionCoefficients> friction_;
   bool impulses_;
   std::vector<ContactMode> modes_;
+  std::vector<bool> is_gripped_anew_;  // of each contact
   std::vector<ContactUnknown> unknowns_;
   std::vector<ContactForce<double>> forces_;
 };
 
 }  // namespace
-
-std::vector<ContactMode> modes_by_velocity(const BodyTerms<double>& terms,
-                                           const std::vector<ContactQuestion>& questions) {
-  std::vector<ContactMode> modes;
-  for (std::size_t c = 0; c < questions.size(); ++c) {
-    const ContactPoints& contact = terms.contacts[c];
-    const ContactTerms<double>& at = terms.points[static_cast<std::size_t>(contact.points[0])];
-    const ContactQuestion& question = questions[c];
-    ContactMode mode;
-    // of several points the middle, and how far the others are from it
-    Vector3 slip = Vector3::Zero();
-    double spread = 0.0;
-    for (const int i : contact.points) slip += terms.points[static_cast<std::size_t>(i)].slip;
-    slip /= static_cast<double>(contact.points.size());
-    for (const int i : contact.points)
-      spread = std::max(spread, along_surface(terms.points[static_cast<std::size_t>(i)].slip - slip, at.normal).norm());
-    const auto set = [&](Way way, ContactEnd stops, bool bends, double unit) {
-      if (!(coefficient(question, way) > 0.0)) return;
-      Resistance& it = resistance(mode, way);
-      ContactMode before = question.before;
-      // what was held is so to the rounding of the speeds that it had then
-      const Resistance& was = resistance(before, way);
-      it.scale = std::max(question.speed / unit, was.scale);
-      const Vector3 motion = part(way, slip, at.turning, at.normal);
-      const double aside = way == Way::slip ? spread : 0.0;
-      if (question.has_ended(stops) || motion.norm() + aside <= kNoSpeed * it.scale) {
-        it.state = State::held;
-        return;
-      }
-      set_moving(it, way, motion.norm() > 0.0 ? motion : at.tangents[0], at.normal);
-      it.follows = way != Way::spin && (!question.may_go_straight || bends || (was.is_moving() && was.follows) ||
-                                        aside > kStraight * it.scale);
-      const Vector3 faster = way == Way::slip ? at.slip_rate : Vector3(at.normal.cross(at.slip_rate));
-      it.begins =
-          it.follows && motion.norm() + aside < kBegun * it.scale && faster.dot(motion) > 0.0 && !(was.begins && bends);
-    };
-    const double radius = std::max(question.radius, 1e-300);
-    set(Way::slip, ContactEnd::slip_stops, question.has_ended(ContactEnd::slip_bends), 1.0);
-    set(Way::roll, ContactEnd::roll_stops, question.has_ended(ContactEnd::roll_bends), radius);
-    set(Way::spin, ContactEnd::spin_stops, false, radius);
-    modes.push_back(mode);
-  }
-  return modes;
-}
 
 ContactDecision decide_contacts(const BodyTerms<double>& terms, const std::vector<ContactQuestion>& questions,
                                 std::vector<ContactMode> modes, bool impulses) {

@@ -28,6 +28,8 @@ std::vector<ContactUnknown> contact_unknowns(const std::vector<ContactPoints>& c
     const ContactPoints& contact = contacts[static_cast<std::size_t>(c)];
     if (!contact.is_one()) {
       add(Kind::normal, static_cast<int>(contact.shares.rows()));
+      if (const int sticking = mode.sticking_point(); sticking >= 0)
+        for (int axis = 0; axis < 2; ++axis) unknowns.push_back({c, Kind::hold, axis, sticking});
       if (!mode.slip.is_held()) continue;
       add(Kind::hold, 2);
       add(Kind::spin, 1);

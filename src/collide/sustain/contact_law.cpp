@@ -14,10 +14,6 @@ using NumberVector = Vector3T<ProgramNumber>;
 
 /// A speed so small of those at a contact is a motion to the side by rounding.
 constexpr double kStraight = 1e-13;
-/// And so small a one has stopped, where its direction follows it.
-constexpr double kStopped = 1e-11;
-/// And one point among several that move, where its part of their motion is so small.
-constexpr double kOneStops = 1e-5;
 
 /// A corner that is so much deeper than the surface, of its distance from the centre of mass, has come to it unseen.
 constexpr double kDeep = 1e-8;
@@ -37,9 +33,10 @@ class ResistanceEnds {
   /// The motion along its direction turns round.
   ProgramNumber turns_round() const { return -resistance_.direction.cast<ProgramNumber>().dot(motions_.front()); }
   /// The motion has died.
-  ProgramNumber dies() const { return below(kStopped) - squares(); }
-  ProgramNumber one_dies(const NumberVector& motion) const {
-    return ProgramNumber(kOneStops * kOneStops) * squares() - motion.dot(motion);
+  ProgramNumber dies() const { return below(kHasDied) - squares(); }
+  /// One of the motions is so small a part of all, or has died.
+  ProgramNumber is_below(const NumberVector& motion, double part) const {
+    return ProgramNumber(part * part) * squares() + below(kHasDied) - motion.dot(motion);
   }
   /// The motion is fast enough for a direction of its own.
   ProgramNumber has_begun() const { return squares() - below(kBegun); }
@@ -66,6 +63,35 @@ class ResistanceEnds {
 
 /// What a force or torque of the surface has without its part along the normal.
 NumberVector along_surface(const NumberVector& v, const NumberVector& normal) { return v - normal * normal.dot(v); }
+
+/// Of each point whose friction follows its slip, the squares of its speed and acceleration along the surface.
+Program slips_that_bend(ProgramBuilder& builder, const BodyTerms<ProgramNumber>& terms,
+                        const std::vector<ContactMode>& modes, const std::vector<ContactForce<ProgramNumber>>& forces) {
+  NumberVector force, moment;
+  force.setConstant(ProgramNumber(0.0));
+  moment.setConstant(ProgramNumber(0.0));
+  for (const ContactForce<ProgramNumber>& each : forces) {
+    force += each.force;
+    moment += each.moment;
+  }
+  const NumberVector acceleration = force * terms.inverse_mass, turning = terms.inverse_inertia * moment;
+  std::vector<int> nodes;
+  for (std::size_t c = 0; c < modes.size(); ++c) {
+    const ContactPoints& contact = terms.contacts[c];
+    if (!modes[c].slip.is_moving() || !modes[c].slip.follows) continue;
+    for (std::size_t i = 0; i < contact.points.size(); ++i) {
+      if (!contact.is_one() && modes[c].points[i].state != PointSlip::State::follows) continue;
+      if (modes[c].slip.begins) continue;
+      const ContactTerms<ProgramNumber>& at = terms.points[static_cast<std::size_t>(contact.points[i])];
+      const NumberVector slip = along_surface(at.slip, at.normal);
+      const NumberVector rate =
+          along_surface(at.slip_rate + acceleration + NumberVector(turning.cross(at.arm)), at.normal);
+      nodes.push_back(slip.dot(slip).node(builder));
+      nodes.push_back(rate.dot(rate).node(builder));
+    }
+  }
+  return nodes.empty() ? Program{} : builder.build(nodes);
+}
 
 /// Whether position changes as the velocity says.
 bool has_no_drift(const Program& law, int offset) {
@@ -149,6 +175,7 @@ std::optional<ContactLaw> make_contact_law(const Program& law, const SustainedBo
     const int node = value.node(builder);
     result.ends.push_back({static_cast<int>(contact), kind, builder.build(std::span(&node, 1)), detail});
   };
+  result.slips = slips_that_bend(builder, terms, modes, forces);
   for (std::size_t c = 0; c < contacts.size(); ++c) {
     const ContactPoints& points = terms.contacts[c];
     const auto point = [&](int i) -> const ContactTerms<ProgramNumber>& {
@@ -165,8 +192,12 @@ std::optional<ContactLaw> make_contact_law(const Program& law, const SustainedBo
       if (!resistance.follows || points.is_one()) end(c, resistance.follows ? bends : stops, ends.turns_round());
       if (resistance.follows) end(c, stops, ends.dies());
       // where one of several points stops, its direction is lost
-      for (std::size_t i = 0; resistance.follows && motions.size() > 1 && i < motions.size(); ++i)
-        end(c, ContactEnd::one_stops, ends.one_dies(motions[i]));
+      for (std::size_t i = 0; resistance.follows && motions.size() > 1 && i < motions.size(); ++i) {
+        if (mode.points[i].state == PointSlip::State::begins)
+          end(c, bends, -ends.is_below(motions[i], kOneBegun));
+        else
+          end(c, ContactEnd::one_stops, ends.is_below(motions[i], kOneStops));
+      }
       if (!resistance.follows) end(c, bends, ends.bends());
     };
     const auto limit = [&](ContactEnd starts, const ProgramNumber& squared, double coefficient) {
@@ -176,16 +207,23 @@ std::optional<ContactLaw> make_contact_law(const Program& law, const SustainedBo
     const std::vector<ProgramNumber> loads = loads_of_sides(points, force.shares);
     for (std::size_t side = 0; side < loads.size(); ++side)
       end(c, points.is_one() ? ContactEnd::pull : ContactEnd::tips, -loads[side], static_cast<int>(side));
-    if (mode.slip.is_moving()) {
+    const int sticking = mode.sticking_point();
+    if (sticking >= 0) {
+      end(c, ContactEnd::slip_stops, ProgramNumber(-mode.slip.sign) * at.normal.dot(at.turning));
+      end(c, ContactEnd::slip_starts,
+          squared(force.sticking) -
+              square(ProgramNumber(friction[c].slip) * force.shares[static_cast<std::size_t>(sticking)]));
+    } else if (mode.slip.is_moving()) {
       std::vector<NumberVector> slips;
-      for (std::size_t i = 0; i < points.points.size(); ++i) slips.push_back(point(static_cast<int>(i)).slip);
+      for (std::size_t i = 0; i < points.points.size(); ++i)
+        slips.push_back(along_surface(point(static_cast<int>(i)).slip, at.normal));
       watch(mode.slip, slips, ContactEnd::slip_stops, ContactEnd::slip_bends);
     }
-    if (mode.slip.is_held()) {
-      ProgramNumber resisting = squared(along_surface(force.force, at.normal));
-      if (!points.is_one()) resisting += square(at.normal.dot(force.torque) * ProgramNumber(1.0 / points.spread));
-      limit(ContactEnd::slip_starts, resisting, friction[c].slip);
-    }
+    if (mode.slip.is_held() && points.is_one())
+      limit(ContactEnd::slip_starts, squared(along_surface(force.force, at.normal)), friction[c].slip);
+    if (mode.slip.is_held() && !points.is_one())
+      for (const NumberVector& each : held_friction(terms, points, mode, force))
+        end(c, ContactEnd::slip_starts, squared(each) - square(ProgramNumber(friction[c].slip)));
     if (mode.roll.is_moving())
       watch(mode.roll, {along_surface(at.turning, at.normal)}, ContactEnd::roll_stops, ContactEnd::roll_bends);
     if (mode.roll.is_held())

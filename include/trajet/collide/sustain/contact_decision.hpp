@@ -13,6 +13,7 @@ struct ContactQuestion {
   FrictionCoefficients friction{};
   bool turns = false;               ///< contacts can make the body turn
   bool may_go_straight = false;     ///< what slides here may do so in a constant direction
+  bool is_of_corners = false;       ///< of a solid that turns: what presses it on may make it slide
   ContactMode before{};             ///< how it lasted so far
   std::vector<ContactEnd> ended{};  ///< of that, just now: whatever rounding leaves of it
   double speed = 0.0;               ///< m/s: the scale of the speeds at the contact

@@ -4,69 +4,9 @@
 #include <cstddef>
 #include <vector>
 
-#include "trajet/collide/sustain/contact_mode.hpp"
-#include "trajet/math/vector.hpp"
+#include "trajet/collide/sustain/contact_friction.hpp"
 
 namespace trajet {
-
-/// How a body moves at a point of one of its contacts, against the surface. World frame, SI units; rates are without
-/// the forces of contacts.
-template <class T>
-struct ContactTerms {
-  Vector3T<T> normal, normal_rate;  ///< unit, towards the body
-  Vector3T<T> tangents[2];          ///< unit, orthogonal to it and to each other
-  Vector3T<T> tangent_rates[2];
-  Vector3T<T> arm;                    ///< from the centre of mass to the point
-  Vector3T<T> slip, slip_rate;        ///< velocity of the body's material there against the surface's
-  Vector3T<T> turning, turning_rate;  ///< angular velocity against the surface's
-};
-
-/// The points of one contact: one, or the corners of an edge or a face on a flat surface. Of three and more the force
-/// is spread as a linear function of the place, which has three numbers.
-struct ContactPoints {
-  std::vector<int> points{};  ///< in BodyTerms::points
-  Eigen::MatrixXd shares{};   ///< of each number of the force, what each point bears  // (numbers x points)
-  double spread = 0.0;        ///< m: how far the points are from their middle, on average
-  /// What each side bears of the points' forces: of one point its force, of two each one's, of more the moment about an
-  /// edge of their hull. Where it vanishes, the contact goes on on the points that `remaining` has.  // (sides x
-  /// points)
-  Eigen::MatrixXd sides{};
-  std::vector<std::vector<int>> remaining{};  ///< counted in `points`
-
-  bool is_one() const { return points.size() == 1; }
-};
-
-/// A body with all its contacts.
-template <class T>
-struct BodyTerms {
-  T inverse_mass{};                        ///< 1/kg
-  Eigen::Matrix<T, 3, 3> inverse_inertia;  ///< 1/(kg m^2), about the centre of mass, world frame
-  std::vector<ContactTerms<T>> points;
-  std::vector<ContactPoints> contacts{};
-};
-
-/// What the sides of a contact bear.
-template <class T>
-std::vector<T> loads_of_sides(const ContactPoints& contact, const std::vector<T>& shares) {
-  std::vector<T> loads;
-  for (Eigen::Index side = 0; side < contact.sides.rows(); ++side) {
-    T load(0.0);
-    for (std::size_t i = 0; i < shares.size(); ++i)
-      load += T(contact.sides(side, static_cast<Eigen::Index>(i))) * shares[i];
-    loads.push_back(load);
-  }
-  return loads;
-}
-
-/// What a contact does to the body. World frame.
-template <class T>
-struct ContactForce {
-  T normal{};               ///< the part of `force` along the normal, N
-  Vector3T<T> force;        ///< N
-  Vector3T<T> moment;       ///< N m, about the centre of mass
-  Vector3T<T> torque;       ///< N m: of it, what resists rolling and spinning, or turning of a face
-  std::vector<T> shares{};  ///< N: the normal forces of its points
-};
 
 /// One number of the forces that keep a motion at zero: a force or a torque along a direction, and what it keeps at
 /// zero, the motion along that direction.
@@ -74,7 +14,7 @@ struct ContactUnknown {
   enum class Kind {
     normal,   ///< along the normal, with the friction of what moves; `axis` is the number of the force
     force,    ///< along an axis of the world: of one point without slip
-    hold,     ///< along a tangent, in the middle of several points without slip
+    hold,     ///< along a tangent, in the middle of several points without slip, or at the one of them that sticks
     tangent,  ///< a torque along a tangent
     turn,     ///< a torque along an axis of the world: of a contact without any turning
     spin,     ///< a torque about the normal
@@ -82,7 +22,8 @@ struct ContactUnknown {
   int contact = 0;
   Kind kind = Kind::normal;
   int axis = 0;
-  int order = 0;  ///< of the elimination
+  int point = -1;  ///< of the contact, that sticks while others slide
+  int order = 0;   ///< of the elimination
   bool operator==(const ContactUnknown&) const = default;
 };
 
@@ -102,17 +43,6 @@ Vector3T<T> unit_axis(int i) {
   Vector3T<T> axis(T(0.0), T(0.0), T(0.0));
   axis[i] = T(1.0);
   return axis;
-}
-
-/// The direction of a motion that is resisted.
-template <class T>
-Vector3T<T> direction_of(const Resistance& resistance, const Vector3T<T>& motion, const Vector3T<T>& free_rate,
-                         const Vector3T<T>& normal) {
-  using std::sqrt;
-  if (!resistance.follows) return resistance.direction.cast<T>();
-  const Vector3T<T>& leading = resistance.begins ? free_rate : motion;
-  const Vector3T<T> along = leading - normal * normal.dot(leading);
-  return along * (T(1.0) / sqrt(along.dot(along)));
 }
 
 /// A force and its moment about the centre of mass, N and N m; the part of the moment that is a torque of the surface.
@@ -146,7 +76,7 @@ class ContactSystem {
           const ContactTerms<T>& at = point(contact, i);
           const T share(contact.shares(x.axis, static_cast<Eigen::Index>(i)));
           Vector3T<T> force = at.normal;
-          if (mode.slip.is_moving()) force -= direction_of(mode.slip, at.slip, at.slip_rate, at.normal) * T(mu.slip);
+          if (mode.slip.is_moving()) force -= slip_direction(terms_, contact, mode, i) * T(mu.slip);
           push(force * share, at);
         }
         if (contact.is_one()) w.torque = torque_per_normal(point(contact, 0), mode, mu);
@@ -156,6 +86,11 @@ class ContactSystem {
         w.torque = torque_per_normal(point(contact, 0), mode, mu) * point(contact, 0).normal[x.axis];
         break;
       case Kind::hold:
+        if (x.point >= 0) {
+          const ContactTerms<T>& at = point(contact, static_cast<std::size_t>(x.point));
+          push(at.tangents[x.axis], at);
+          break;
+        }
         for (std::size_t i = 0; i < contact.points.size(); ++i)
           push(point(contact, i).tangents[x.axis] * T(1.0 / static_cast<double>(contact.points.size())),
                point(contact, i));
@@ -221,6 +156,10 @@ class ContactSystem {
       case Kind::force:
         return slip(first)[row.axis];
       case Kind::hold:
+        if (row.point >= 0) {
+          const ContactTerms<T>& at = point(contact, static_cast<std::size_t>(row.point));
+          return at.tangents[row.axis].dot(slip(at));
+        }
         for (std::size_t i = 0; i < contact.points.size(); ++i) {
           const ContactTerms<T>& at = point(contact, i);
           sum += at.tangents[row.axis].dot(slip(at));
@@ -249,6 +188,10 @@ class ContactSystem {
         }
         return sum;
       case Kind::hold:
+        if (row.point >= 0) {
+          const ContactTerms<T>& at = point(contact, static_cast<std::size_t>(row.point));
+          return at.tangent_rates[row.axis].dot(at.slip);
+        }
         for (std::size_t i = 0; i < contact.points.size(); ++i) {
           const ContactTerms<T>& at = point(contact, i);
           sum += at.tangent_rates[row.axis].dot(at.slip);
@@ -322,7 +265,7 @@ std::vector<ContactForce<T>> contact_forces(const BodyTerms<T>& terms, const std
     x[k] = sum / a(k, k);
   }
   const Vector3T<T> zero(T(0.0), T(0.0), T(0.0));
-  std::vector<ContactForce<T>> forces(modes.size(), {T(0.0), zero, zero, zero});
+  std::vector<ContactForce<T>> forces(modes.size(), {T(0.0), zero, zero, zero, {}, zero});
   for (std::size_t c = 0; c < forces.size(); ++c) forces[c].shares.assign(terms.contacts[c].points.size(), T(0.0));
   for (std::size_t i = 0; i < unknowns.size(); ++i) {
     ContactForce<T>& at = forces[static_cast<std::size_t>(unknowns[i].contact)];
@@ -330,6 +273,7 @@ std::vector<ContactForce<T>> contact_forces(const BodyTerms<T>& terms, const std
     at.force += wrenches[i].force * amount;
     at.moment += wrenches[i].moment * amount;
     at.torque += wrenches[i].torque * amount;
+    if (unknowns[i].point >= 0) at.sticking += wrenches[i].force * amount;
     if (unknowns[i].kind != ContactUnknown::Kind::normal) continue;
     const ContactPoints& contact = terms.contacts[static_cast<std::size_t>(unknowns[i].contact)];
     for (std::size_t k = 0; k < at.shares.size(); ++k)

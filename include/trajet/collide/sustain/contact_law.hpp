@@ -81,6 +81,9 @@ class ContactMotion {
 struct ContactLaw {
   Program law;
   std::vector<ContactEndCondition> ends;
+  /// Of each point whose friction follows its slip, the squares of its speed and acceleration along the surface. None:
+  /// an empty program.
+  Program slips{};
 };
 /// \param unknowns  as `independent_unknowns` gives them for the modes of the contacts
 std::optional<ContactLaw> make_contact_law(const Program& law, const SustainedBody& body,

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "trajet/math/vector.hpp"
 
 namespace trajet {
@@ -29,11 +31,39 @@ struct Resistance {
 
 /// A motion that begins has a direction of its own from so large a part of its scale on.
 inline constexpr double kBegun = 1e-5;
+/// And where its direction follows it, it has stopped where it is so small.
+inline constexpr double kHasDied = 1e-11;
+/// One point among several that move has none where its part of their motions is so small, and has one again from the
+/// other part on.
+inline constexpr double kOneStops = 1e-5, kOneBegun = 2e-5;
+
+/// How friction acts on one of several points of a contact whose directions of slip differ.
+struct PointSlip {
+  enum class State {
+    follows,  ///< against its own velocity
+    begins,   ///< against what accelerates it: it is too slow for a direction of its own
+    turns,    ///< it moves round the point that sticks
+    sticks,   ///< it does not move: the others turn about it
+  };
+  State state = State::follows;
+  Vector3 direction = Vector3::Zero();  ///< unit, world: of a point that `begins`
+  /// Where all are held: what friction it has per normal force, against what the others have if they move as fast.
+  double grip = 1.0;
+  bool operator==(const PointSlip&) const = default;
+};
 
 /// How a contact lasts: what it does against slip, against turning along the surface and against turning about the
 /// normal.
 struct ContactMode {
   Resistance slip{}, roll{}, spin{};
+  std::vector<PointSlip> points{};  ///< of a contact of several
+  /// The point about which the others turn, with the sign of `slip`; -1 if there is none.
+  int sticking_point() const {
+    if (!slip.is_moving()) return -1;
+    for (std::size_t i = 0; i < points.size(); ++i)
+      if (points[i].state == PointSlip::State::sticks) return static_cast<int>(i);
+    return -1;
+  }
   bool operator==(const ContactMode&) const = default;
 };
 
