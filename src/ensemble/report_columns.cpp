@@ -16,7 +16,9 @@
 namespace trajet {
 namespace {
 
-bool is_met(const Impact& impact) { return impact.kind == ImpactKind::hit || impact.kind == ImpactKind::graze; }
+bool is_hit(const Impact& impact) { return impact.kind == ImpactKind::hit || impact.kind == ImpactKind::stick; }
+
+bool is_met(const Impact& impact) { return is_hit(impact) || impact.kind == ImpactKind::graze; }
 
 const Impact* nth_impact(const RunResult& result, int n) {
   for (const Impact& impact : result.impacts)
@@ -317,7 +319,7 @@ std::vector<Cell> ReportColumns::Reader::operator()(const RunResult& result, std
 }
 
 const Impact* first_hit(const RunResult& result) {
-  const auto hit = ranges::find(result.impacts, ImpactKind::hit, &Impact::kind);
+  const auto hit = ranges::find_if(result.impacts, is_hit);
   return hit == result.impacts.end() ? nullptr : &*hit;
 }
 

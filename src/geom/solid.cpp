@@ -94,7 +94,11 @@ struct VolumePropertiesOf {
   Result operator()(const Hull& hull) const { return hull.polyhedron->properties; }
   Result operator()(const Mesh& mesh) const { return mesh.polyhedron->properties; }
   Result operator()(const RoundedSolid& solid) const { return solid.core->properties; }
-  Result operator()(const Compound& compound) const { return compound.parts->properties; }
+  Result operator()(const Compound& compound) const {
+    const CompoundParts& parts = *compound.parts;
+    if (parts.volume == 0.0) return std::nullopt;
+    return VolumeProperties{parts.volume, Vector3::Zero(), parts.volume * parts.unit_inertia};
+  }
   Result operator()(const HalfSpace&) const { return std::nullopt; }
   Result operator()(const Surroundings&) const { return std::nullopt; }
   Result operator()(const RoundPlate&) const { return std::nullopt; }
@@ -170,6 +174,16 @@ TriangleMesh flat(std::vector<Vector3> corners) {
   return mesh;
 }
 
+/// With the same triangles seen from behind, on corners of their own.
+TriangleMesh two_sided(TriangleMesh mesh) {
+  const auto corners = static_cast<int>(mesh.vertices.size());
+  const std::vector<Vector3> front = mesh.vertices;
+  mesh.vertices.insert(mesh.vertices.end(), front.begin(), front.end());
+  const auto triangles = mesh.triangles;
+  for (const auto& [a, b, c] : triangles) mesh.triangles.push_back({corners + a, corners + c, corners + b});
+  return mesh;
+}
+
 struct PictureMesh {
   TriangleMesh operator()(const Point&) const { return {}; }
   TriangleMesh operator()(const Ball&) const { return {}; }
@@ -224,14 +238,14 @@ struct PictureMesh {
       const double angle = 2.0 * std::numbers::pi * i / kSides;
       rim.emplace_back(plate.radius * std::cos(angle), plate.radius * std::sin(angle), 0.0);
     }
-    return flat(std::move(rim));
+    return two_sided(flat(std::move(rim)));
   }
   TriangleMesh operator()(const RectangularPlate& plate) const {
     const double x = plate.half_width, y = plate.half_height;
-    return flat({{-x, -y, 0.0}, {x, -y, 0.0}, {x, y, 0.0}, {-x, y, 0.0}});
+    return two_sided(flat({{-x, -y, 0.0}, {x, -y, 0.0}, {x, y, 0.0}, {-x, y, 0.0}}));
   }
   TriangleMesh operator()(const TriangularPlate& plate) const {
-    return flat({plate.corners[0], plate.corners[1], plate.corners[2]});
+    return two_sided(flat({plate.corners[0], plate.corners[1], plate.corners[2]}));
   }
 };
 

@@ -14,9 +14,9 @@ struct BodyKind {
   ShapeDefinition (*read)(const TableReader&);
 };
 
-const std::array<BodyKind, 11>& body_kinds() {
+const std::array<BodyKind, 12>& body_kinds() {
   using Table = const TableReader&;
-  static const std::array<BodyKind, 11> kinds{{
+  static const std::array<BodyKind, 12> kinds{{
       {"point", {}, [](Table) { return ShapeDefinition(PointShape{}); }},
       {"sphere", {"radius"}, [](Table t) { return ShapeDefinition(BallShape{t.scalar("radius", kLength)}); }},
       {"box", {"size"}, [](Table t) { return ShapeDefinition(CuboidShape{t.vector("size", kLength)}); }},
@@ -26,6 +26,7 @@ const std::array<BodyKind, 11>& body_kinds() {
       {"cylinder", {"radius", "height"}, read_cylinder},
       {"capsule", {"radius", "height"}, read_capsule},
       {"cone", {"radius", "height"}, read_cone},
+      {"disk", {"radius"}, read_disk_across_z},
       {"ellipsoid", {"radii"}, read_ellipsoid},
       {"hull", {}, read_hull},  // its `points` are the corners
       {"compound", {"parts"}, [](Table t) { return ShapeDefinition(CompoundShape{read_parts(t, true)}); }},

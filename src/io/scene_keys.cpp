@@ -131,11 +131,11 @@ class KeySearch {
  private:
   static OnHit on_hit(const std::string& word, const SourceLocation& where) {
     constexpr std::pair<std::string_view, OnHit> kWords[] = {
-        {"stop", OnHit::stop}, {"bounce", OnHit::bounce}, {"pass", OnHit::pass}};
+        {"stop", OnHit::stop}, {"bounce", OnHit::bounce}, {"pass", OnHit::pass}, {"stick", OnHit::stick}};
     for (const auto& [name, value] : kWords)
       if (word == name) return value;
-    constexpr std::string_view kNames[] = {"stop", "bounce", "pass"};
-    throw InputError(where, "stop, bounce or pass expected, got '" + word + "'" + did_you_mean(word, kNames));
+    constexpr std::string_view kNames[] = {"stop", "bounce", "pass", "stick"};
+    throw InputError(where, "stop, bounce, pass or stick expected, got '" + word + "'" + did_you_mean(word, kNames));
   }
 
   bool is_it(const std::string& owner, std::string_view key) {

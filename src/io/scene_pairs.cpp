@@ -6,15 +6,9 @@
 
 namespace trajet::detail {
 
-namespace {
-
-constexpr std::array<std::string_view, 1> kPlannedOnHit{"stick"};
-
-}  // namespace
-
 OnHit read_on_hit(const TableReader& table) {
-  return std::array{OnHit::stop, OnHit::bounce,
-                    OnHit::pass}[table.choice("on_hit", words(obstacle_keys(), "on_hit"), 0, kPlannedOnHit)];
+  return std::array{OnHit::stop, OnHit::bounce, OnHit::pass,
+                    OnHit::stick}[table.choice("on_hit", words(obstacle_keys(), "on_hit"), 0)];
 }
 
 std::shared_ptr<const FrictionDefinition> read_friction(const TableReader& table) {

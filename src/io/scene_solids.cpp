@@ -67,6 +67,10 @@ ShapeDefinition read_ellipsoid(const TableReader& table) { return EllipsoidShape
 
 ShapeDefinition read_hull(const TableReader& table) { return HullShape{table.vector_list("points", kLength)}; }
 
+ShapeDefinition read_disk_across_z(const TableReader& table) {
+  return DiskShape{Vector3(0, 0, 1), table.scalar("radius", kLength)};
+}
+
 namespace {
 
 ShapeDefinition read_plane(const TableReader& table) { return PlaneShape{table.vector("normal", kDimensionless)}; }
@@ -153,9 +157,15 @@ Names required_keys(const ObstacleKind& kind) {
   return required;
 }
 
-/// Shapes of the parts of a compound: solids.
-constexpr std::array<std::string_view, 8> kParts{"sphere", "box",       "cylinder", "capsule",
-                                                 "cone",   "ellipsoid", "hull",     "mesh"};
+/// Shapes of the parts of a compound: those that bodies have too.
+constexpr std::array<std::string_view, 9> kParts{"sphere", "box",       "cylinder", "capsule", "cone",
+                                                 "disk",   "ellipsoid", "hull",     "mesh"};
+
+/// What describes a part. A disk lies across the z axis of its own frame, as that of a body.
+const ObstacleKind& part_kind(std::string_view shape) {
+  static const ObstacleKind disk{"disk", "center", true, {"radius"}, read_disk_across_z};
+  return shape == disk.name ? disk : *ranges::find(obstacle_kinds(), shape, &ObstacleKind::name);
+}
 
 }  // namespace
 
@@ -167,8 +177,8 @@ std::vector<ShapeKind> obstacle_shapes() {
 
 std::vector<ShapeKind> part_shapes() {
   std::vector<ShapeKind> shapes;
-  for (const ObstacleKind& kind : obstacle_kinds()) {
-    if (!is_among(kParts, kind.name)) continue;
+  for (const std::string_view part : kParts) {
+    const ObstacleKind& kind = part_kind(part);
     Names keys = kind.keys + Names{"mass", "density"};
     if (is_among(kRounded, kind.name)) keys.push_back("rounding");
     Names required = required_keys(kind);
@@ -183,7 +193,7 @@ std::vector<PartDefinition> read_parts(const TableReader& table, bool have_masse
   for (const TableReader& each : table.subtables("parts", "a part of a compound")) {
     if (!each.has("shape")) throw InputError(each.where(), "a part of a compound lacks the key 'shape'");
     const std::string_view shape = kParts[each.choice("shape", kParts, 0)];
-    const ObstacleKind& kind = *ranges::find(obstacle_kinds(), shape, &ObstacleKind::name);
+    const ObstacleKind& kind = part_kind(shape);
     const bool may_be_round = is_among(kRounded, shape);
     each.titled("a part of shape " + std::string(shape))
         .check_keys(Names{"shape"} + names(part_keys()) + kind.keys + (may_be_round ? Names{"rounding"} : Names{}) +

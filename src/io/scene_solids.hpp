@@ -22,6 +22,8 @@ ShapeDefinition read_capsule(const TableReader& table);
 ShapeDefinition read_cone(const TableReader& table);
 ShapeDefinition read_ellipsoid(const TableReader& table);
 ShapeDefinition read_hull(const TableReader& table);
+/// A disk across the z axis of its frame, of bodies and of parts of compounds.
+ShapeDefinition read_disk_across_z(const TableReader& table);
 
 /// Reads the `parts` of a compound; with masses or densities those of a body.
 std::vector<PartDefinition> read_parts(const TableReader& table, bool have_masses);

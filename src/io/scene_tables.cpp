@@ -120,7 +120,7 @@ Keys friction_keys() {
 Keys pair_keys() {
   static const std::vector<Key> keys{
       {"of", Form::names, "two bodies, or a body and an obstacle", {}, {}, 2, true},
-      {"on_hit", Form::word, "what becomes of them where they touch", {}, {"stop", "bounce", "pass"}},
+      {"on_hit", Form::word, "what becomes of them where they touch", {}, {"stop", "bounce", "pass", "stick"}},
       {"restitution", Form::scalar, "0 to 1; may be a formula of u, the speed of approach", kDimensionless},
   };
   return keys;
@@ -171,7 +171,11 @@ Keys body_keys() {
 Keys obstacle_keys() {
   static const std::vector<Key> keys{
       {"name", Form::text, "unique", {}, {}, 0, true},
-      {"on_hit", Form::word, "what becomes of a body that hits it; default stop", {}, {"stop", "bounce", "pass"}},
+      {"on_hit",
+       Form::word,
+       "what becomes of a body that hits it; default stop",
+       {},
+       {"stop", "bounce", "pass", "stick"}},
       {"restitution", Form::scalar, "of bounces, 0 to 1; may be a formula of u, the speed of approach", kDimensionless},
       {"color", Form::text, "in pictures: \"#rrggbb\" or a name of CSS 2.1"},
       {"velocity", Form::vector, "constant, of its frame", kSpeed},

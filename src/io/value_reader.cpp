@@ -30,18 +30,13 @@ SourceLocation TableReader::where(std::string_view key) const {
   return node == nullptr ? where_ : document_.location(*node);
 }
 
-void TableReader::check_keys(std::span<const std::string_view> allowed,
-                             std::span<const std::string_view> planned) const {
+void TableReader::check_keys(std::span<const std::string_view> allowed) const {
   for (const auto& [key, node] : entries_in_file_order(table_)) {
     const std::string_view name = key->str();
     if (ranges::find(allowed, name) != allowed.end()) continue;
-    const SourceLocation where = document_.location(*key);
-    if (ranges::find(planned, name) != planned.end())
-      throw InputError(where, "the key " + quote(name) + " of " + title_ +
-                                  " is not supported by this version of trajet, which knows: " + join(allowed));
     const std::string hint = did_you_mean(name, allowed);
-    throw InputError(where, "unknown key " + quote(name) + " in " + title_ +
-                                (hint.empty() ? ", expected one of: " + join(allowed) : hint));
+    throw InputError(document_.location(*key), "unknown key " + quote(name) + " in " + title_ +
+                                                   (hint.empty() ? ", expected one of: " + join(allowed) : hint));
   }
 }
 
@@ -224,14 +219,11 @@ std::optional<Expression> TableReader::optional_vector(std::string_view key, Dim
 }
 
 std::size_t TableReader::choice(std::string_view key, std::span<const std::string_view> choices,
-                                std::size_t default_choice, std::span<const std::string_view> planned) const {
+                                std::size_t default_choice) const {
   if (!has(key)) return default_choice;
   const std::string word = text(key);
   const auto found = ranges::find(choices, word);
   if (found != choices.end()) return static_cast<std::size_t>(found - choices.begin());
-  if (ranges::find(planned, word) != planned.end())
-    fail(key, std::string(key) + " = \"" + word +
-                  "\" is not supported by this version of trajet, which knows: " + join(choices));
   fail(key, "unknown " + std::string(key) + " " + quote(word) + ", expected one of: " + join(choices) +
                 did_you_mean(word, choices));
 }

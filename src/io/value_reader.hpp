@@ -31,9 +31,8 @@ class TableReader {
   /// Of the value of `key`, or of the table if there is none.
   SourceLocation where(std::string_view key) const;
 
-  /// Throws at the first key that is not `allowed`. Keys `planned` are in the description of the format, but not in
-  /// this version of the program.
-  void check_keys(std::span<const std::string_view> allowed, std::span<const std::string_view> planned = {}) const;
+  /// Throws at the first key that is not `allowed`.
+  void check_keys(std::span<const std::string_view> allowed) const;
 
   bool has(std::string_view key) const { return table_.contains(key); }
   bool is_array(std::string_view key) const { return has(key) && table_.get(key)->is_array(); }
@@ -62,10 +61,8 @@ class TableReader {
   std::optional<Expression> optional_scalar(std::string_view key, Dimension expected) const;
   std::optional<Expression> optional_vector(std::string_view key, Dimension expected) const;
 
-  /// The index among `choices` of the word that `key` holds, or `default_choice`. Words `planned` are not in this
-  /// version.
-  std::size_t choice(std::string_view key, std::span<const std::string_view> choices, std::size_t default_choice,
-                     std::span<const std::string_view> planned = {}) const;
+  /// The index among `choices` of the word that `key` holds, or `default_choice`.
+  std::size_t choice(std::string_view key, std::span<const std::string_view> choices, std::size_t default_choice) const;
 
  private:
   const toml::node& required(std::string_view key) const;

@@ -5,7 +5,7 @@
 #include "solid_maker.hpp"
 #include "surface_maker.hpp"
 #include "trajet/geom/compound.hpp"
-#include "trajet/geom/mass_properties.hpp"
+#include "trajet/geom/unit_inertia.hpp"
 #include "trajet/portable.hpp"
 #include "trajet/rigid/principal_axes.hpp"
 
@@ -48,14 +48,11 @@ std::optional<double> mass_of_parts(const Solid& solid) {
 /// The inertia about the centre of mass, where there is one.
 std::optional<Matrix3> inertia(const BodyDefinition& definition, const Solid& solid, const SceneNumbers& numbers) {
   if (has_inertia(definition)) return given_inertia(definition, numbers);
-  const std::optional<VolumeProperties> properties = volume_properties(solid);
-  if (!properties) return std::nullopt;
-  if (definition.density)
-    return numbers.positive(*definition.density, "density" + of_body(definition)) * properties->inertia;
-  if (const auto mass = mass_of_parts(solid)) return *mass / properties->volume * properties->inertia;
+  const std::optional<Matrix3> per_mass = unit_inertia(solid);
+  if (!per_mass) return std::nullopt;
+  if (const auto mass = mass_from_solid(definition, numbers)) return *mass * *per_mass;
   if (!definition.mass) return std::nullopt;
-  const double mass = numbers.positive(*definition.mass, "mass" + of_body(definition));
-  return mass / properties->volume * properties->inertia;
+  return numbers.positive(*definition.mass, "mass" + of_body(definition)) * *per_mass;
 }
 
 void require_no_conflict(const BodyDefinition& definition) {
@@ -84,16 +81,17 @@ bool is_turned_by_impacts(const BodyDefinition& d, const Solid& solid, const Sce
   if (is_round(solid) && bounces == Bounces::smoothly) return false;
   if (d.angular_acceleration || d.angular_acceleration_body) return false;
   if (!mass_from_solid(d, numbers) && !(d.mass && numbers.knows(*d.mass))) return false;
-  return has_inertia(d) || volume_properties(solid).has_value();
+  return has_inertia(d) || unit_inertia(solid).has_value();
 }
 
 std::optional<World::Rotation> rotation(const BodyDefinition& d, const Solid& solid, const SceneNumbers& numbers,
-                                        const MethodOptions& method, Bounces bounces) {
+                                        const MethodOptions& method, Bounces bounces, bool is_turned) {
   const std::optional<Expression>* const laws[] = {&d.angular_acceleration, &d.angular_acceleration_body, &d.torque,
                                                    &d.torque_body, &d.force_point};
   const auto law = ranges::find_if(laws, [](const auto* each) { return each->has_value(); });
   const bool has_law = law != std::end(laws);
-  if (!has_law && !d.angular_velocity && !d.angular_velocity_body && !is_turned_by_impacts(d, solid, numbers, bounces))
+  if (!has_law && !d.angular_velocity && !d.angular_velocity_body && !is_turned &&
+      !is_turned_by_impacts(d, solid, numbers, bounces))
     return std::nullopt;
 
   World::Rotation result{.layout = {method.orientation}, .is_free = !has_law};
@@ -120,7 +118,7 @@ std::optional<World::Rotation> rotation(const BodyDefinition& d, const Solid& so
 }  // namespace
 
 World::Body make_body(const BodyDefinition& definition, const SceneNumbers& numbers, const MethodOptions& method,
-                      Bounces bounces) {
+                      Bounces bounces, bool is_turned) {
   require_no_conflict(definition);
   if (has_inertia(definition)) given_inertia(definition, numbers);  // an error where it is none, even if nothing turns
   World::Body body;
@@ -128,7 +126,7 @@ World::Body make_body(const BodyDefinition& definition, const SceneNumbers& numb
   body.where = definition.where;
   body.solid = make_solid(definition, numbers);
   body.q_WB = numbers.orientation(definition.orientation, "orientation" + of_body(definition));
-  body.rotation = rotation(definition, body.solid, numbers, method, bounces);
+  body.rotation = rotation(definition, body.solid, numbers, method, bounces, is_turned);
   if (body.rotation && is_turned_by_impacts(definition, body.solid, numbers, bounces))
     body.inertia = inertia(definition, body.solid, numbers);
   set_restitution(definition.restitution, "body '" + definition.name + "'", numbers, body.surface);
@@ -152,7 +150,9 @@ std::optional<double> mass_from_solid(const BodyDefinition& definition, const Sc
   if (!definition.density) return std::nullopt;
   const std::optional<VolumeProperties> properties = volume_properties(solid);
   if (!properties)
-    throw InputError(definition.density->where(), "a point has no volume: give `mass` instead of `density`");
+    throw InputError(definition.density->where(), "body '" + definition.name + "' is " +
+                                                      (bounding_radius(solid) > 0.0 ? "flat" : "a point") +
+                                                      " and has no volume: give `mass` instead of `density`");
   return numbers.positive(*definition.density, "density" + of_body(definition)) * properties->volume;
 }
 

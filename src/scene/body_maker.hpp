@@ -12,9 +12,10 @@ namespace trajet {
 enum class Bounces { nowhere, smoothly, with_friction };
 
 /// The numbers of a body's definition, but for its place in the state: shape, inertia, orientation, points, how it
-/// turns. `bounces`: impacts make bodies turn that do not at the start. Throws InputError that points at the place.
+/// turns. `bounces`: impacts make bodies turn that do not at the start. `is_turned`: so may something to which it
+/// sticks. Throws InputError that points at the place.
 World::Body make_body(const BodyDefinition& definition, const SceneNumbers& numbers, const MethodOptions& method,
-                      Bounces bounces);
+                      Bounces bounces, bool is_turned);
 
 /// The mass of an extended shape with a density, or of a compound's parts, kg; none if nothing says it. Throws
 /// InputError if both the parts and the body say it.

@@ -18,6 +18,14 @@ bool is_in_pair(const Scene& scene, const std::string& name) {
 
 }  // namespace
 
+bool may_turn_bodies(const Scene& scene, const World& world) {
+  const auto sticks = [](const auto& each) { return each.on_hit == OnHit::stick; };
+  const bool pair_sticks = ranges::any_of(scene.pairs, sticks);
+  return ranges::any_of(world.obstacles, [&](const World::Obstacle& each) {
+    return each.drive && each.drive->turns && (pair_sticks || sticks(each.surface));
+  });
+}
+
 void make_obstacles(const Scene& scene, const ParameterSet& parameters, World& world) {
   const SceneNumbers numbers(parameters.symbols);
   Symbols starting(&parameters.symbols);

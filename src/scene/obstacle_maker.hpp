@@ -9,4 +9,7 @@ namespace trajet {
 /// Throws InputError that points at the place.
 void make_obstacles(const Scene& scene, const ParameterSet& parameters, World& world);
 
+/// Whether there are obstacles that turn and to which bodies stick.
+bool may_turn_bodies(const Scene& scene, const World& world);
+
 }  // namespace trajet

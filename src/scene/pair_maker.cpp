@@ -67,6 +67,9 @@ void make_pairs(const Scene& scene, const SceneNumbers& numbers, World& world) {
     if (!second.bodies.empty()) {
       const int other = second.bodies[0];
       if (body == other) throw InputError(pair.where, "a pair has two different things");
+      if (pair.on_hit == OnHit::stick)
+        throw InputError(pair.where, "bodies " + names + " cannot stick to each other: how two bodies move on as one " +
+                                         "is not computed; bodies stick to obstacles, and bounce with restitution = 0");
       Surface surface = world.surface_of_bodies(body, other);
       change(surface);
       if (!world.body_pairs.try_emplace(std::minmax(body, other), surface).second)

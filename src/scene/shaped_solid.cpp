@@ -77,8 +77,15 @@ class SolidMaker {
     const Compound compound = make_compound(std::move(parts));
     return {compound, -compound.parts->origin};
   }
+  ShapedSolid operator()(const DiskShape& shape) const {
+    const Vector3 normal = numbers_.direction(shape.normal, "normal");
+    if (normal.head<2>() != Eigen::Vector2d(0.0, 0.0))
+      throw std::domain_error("the normal of a disk that moves is the z axis of its frame: turn it by its orientation");
+    if (rounding_)
+      throw std::domain_error("a disk has no thickness within which it could be rounded: make it a flat cylinder");
+    return at_center(RoundPlate{numbers_.positive(shape.radius, "radius")});
+  }
   ShapedSolid operator()(const PlaneShape&) const { return refuse("plane"); }
-  ShapedSolid operator()(const DiskShape&) const { return refuse("disk"); }
   ShapedSolid operator()(const RectangleShape&) const { return refuse("rectangle"); }
   ShapedSolid operator()(const TriangleShape&) const { return refuse("triangle"); }
   ShapedSolid operator()(const TerrainShape&) const { return refuse("terrain"); }
@@ -104,18 +111,20 @@ class SolidMaker {
     result.p_BP += result.R_BP * own.center;
     if (part.mass && part.density)
       throw InputError(part.density->where(), "a part" + numbers_.of() + " has both `mass` and `density`");
-    if (part.density) result.density = numbers_.positive(*part.density, "density of a part");
-    if (part.mass) {
+    if (part.mass) result.mass = numbers_.positive(*part.mass, "mass of a part");
+    if (part.density) {
       const std::optional<VolumeProperties> properties = volume_properties(result.solid);
-      if (!properties) throw InputError(part.where, "a part" + numbers_.of() + " has no volume");
-      result.density = numbers_.positive(*part.mass, "mass of a part") / properties->volume;
+      if (!properties)
+        throw InputError(part.density->where(),
+                         "a part" + numbers_.of() + " is flat and has no volume: give `mass` instead of `density`");
+      result.mass = numbers_.positive(*part.density, "density of a part") * properties->volume;
     }
     return result;
   }
 
   static bool any_differs(const std::vector<CompoundPart>& parts) {
     for (const CompoundPart& part : parts)
-      if (part.density.has_value() != parts[0].density.has_value()) return true;
+      if (part.mass.has_value() != parts[0].mass.has_value()) return true;
     return false;
   }
 

@@ -27,7 +27,7 @@ class FixedSolid {
                    numbers.rounding(definition.rounding)) {
     is_moved_ = definition.center.has_value();
     is_hollow_ = definition.is_hollow;
-    bounces_ = definition.on_hit == OnHit::bounce;
+    stays_outside_ = definition.on_hit == OnHit::bounce || definition.on_hit == OnHit::stick;
   }
   FixedSolid(const ShapeNumbers& numbers, const Vector3& center, const Matrix3& R_WB, std::optional<double> rounding)
       : numbers_(numbers), center_(center), R_WB_(R_WB), is_turned_(!R_WB_.isIdentity(0.0)), rounding_(rounding) {}
@@ -174,10 +174,10 @@ class FixedSolid {
     return {obstacle};
   }
 
-  /// Where bodies bounce, each wall is an obstacle of its own: in an edge they meet two at once.
+  /// Where bodies do not get through, each wall is an obstacle of its own: in an edge they meet two at once.
   Made hollow(const Cavity& cavity) const {
     if (rounding_) throw std::domain_error("a hollow shape cannot be rounded");
-    if (!bounces_) return placed(Surroundings{}, center_, R_WB_, cavity);
+    if (!stays_outside_) return placed(Surroundings{}, center_, R_WB_, cavity);
     Made made;
     for (const Cavity& wall : walls_of(cavity)) {
       const std::vector<Plane>& planes = wall.walls->planes;
@@ -226,7 +226,7 @@ class FixedSolid {
   std::optional<double> rounding_;
   bool is_moved_ = false;
   bool is_hollow_ = false;
-  bool bounces_ = false;
+  bool stays_outside_ = false;
 };
 
 }  // namespace

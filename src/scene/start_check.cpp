@@ -82,8 +82,9 @@ void check_fits(const World& world) {
             names + ": a terrain is met by points only; for a body with extent make the ground " + "of shape \"mesh\"");
       if (cavity == nullptr) continue;
       if (!is_round(body.solid) && std::holds_alternative<Surroundings>(obstacle.solid))
-        throw InputError(body.where, names + ": the curved walls of what is hollow are met by points and balls only, " +
-                                         "the flat ones of a hollow box with on_hit = \"bounce\" by all bodies");
+        throw InputError(body.where,
+                         names + ": the curved walls of what is hollow are met by points and balls only, " +
+                             "the flat ones of a hollow box with on_hit = \"bounce\" or \"stick\" by all bodies");
       if (radius >= largest_ball(*cavity))
         throw InputError(body.where, names +
                                          ": the ball is too large for the inside, whose walls are met by balls of a " +

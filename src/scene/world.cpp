@@ -175,9 +175,10 @@ class WorldBuilder {
   }
 
   void place_in_groups() {
+    const bool is_turned = may_turn_bodies(scene_, world_);
     for (std::size_t i = 0; i < scene_.bodies.size(); ++i) {
       const BodyDefinition& definition = scene_.bodies[i];
-      World::Body body = make_body(definition, numbers_, scene_.method, bounces(definition));
+      World::Body body = make_body(definition, numbers_, scene_.method, bounces(definition), is_turned);
       body.color = definition.color;
       body.group = group_of(static_cast<int>(i));
       body.offset = append(group(body.group).start, start_state(definition, body, numbers_));

@@ -121,8 +121,8 @@ double bounce_bodies(const World& world, const Meeting& meeting, const Surface& 
   const JointState joint(first, second);
   const BodySlice slice_a = a.slice(), slice_b = joint.second_slice(b.slice());
   const ImpactFriction friction = friction_of(surface);
-  const double t = first.time();
-  const double mass_a = mass_of(a, t, first.before()), mass_b = mass_of(b, t, second.before());
+  const double mass_a = mass_in_meetings(world, meeting.id.first, first),
+               mass_b = mass_in_meetings(world, meeting.id.second, second);
   const Eigen::VectorXd before = joint.of(first.before(), second.before());
   const Eigen::VectorXd rate = joint.of(first.rate(), second.rate());
   const TouchingPlace place(world, meeting, before, slice_a, slice_b);

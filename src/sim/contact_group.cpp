@@ -46,6 +46,9 @@ class Collector {
   Vector3 position(int index) const {
     return body(index).slice().position(run_.course(run_.course_of(index)).state(t_));
   }
+  bool sticks(int index) const {
+    return sticking_contact(run_.course(run_.course_of(index)).held_law().contacts(), index) != nullptr;
+  }
   double size(int index) const { return bounding_radius(body(index).solid); }
 
   void add(const GroupedContact& contact) {
@@ -72,6 +75,7 @@ class Collector {
   void add_obstacles(int index) {
     const World::Body& one = body(index);
     Course& course = run_.course(run_.course_of(index));
+    if (sticks(index)) return;
     for (const Pair& pair : run_.encounters().pairs(index)) {
       const Surface& surface = world().surface(index, pair.id.obstacle);
       if (surface.on_hit != OnHit::bounce || !why_it_cannot_bounce(one, surface).empty()) continue;
@@ -146,8 +150,11 @@ class Collector {
   void add_body(const Meeting::Id& id) {
     const World::Body &a = body(id.first), &b = body(id.second);
     const Surface surface = world().surface_of_bodies(id.first, id.second);
-    if (surface.on_hit != OnHit::bounce || !a.mass || !b.mass || !why_it_cannot_bounce(a, surface).empty() ||
-        !why_it_cannot_bounce(b, surface).empty())
+    const auto can_bounce = [&](int index) {
+      return sticks(index) || (body(index).mass && why_it_cannot_bounce(body(index), surface).empty());
+    };
+    if (surface.on_hit != OnHit::bounce || !can_bounce(id.first) || !can_bounce(id.second) ||
+        (sticks(id.first) && sticks(id.second)))
       return;
     Meeting meeting = run_.meetings().meeting(id);
     ContactResult& contact = meeting.contact;

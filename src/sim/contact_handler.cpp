@@ -61,6 +61,9 @@ void ContactHandler::handle(int index, const Pair& met) {
   for (const int each : moving.group().bodies) run_.encounters().bound_times(each, moving);
   Impact impact = describe(run_.world(), pair, run_.encounters().frame(pair.id.obstacle, time), moving.state(time));
   impact.elapsed = time;
+  if (surface_of(pair).on_hit == OnHit::stick &&
+      (is_hit(pair.contact) || (!is_round(body.solid) && is_pressed(moving, pair))))
+    return stick(index, pair, impact);
   if (!is_round(body.solid) && surface_of(pair).on_hit == OnHit::bounce &&
       (is_hit(pair.contact) || is_pressed(moving, pair)))
     return bounce_off(index, pair, impact);
@@ -280,7 +283,8 @@ bool ContactHandler::begin_stay(Instant& instant, const Pair& pair, const Impact
         "where trajet cannot follow it: contact that lasts is of corners, edges and faces of convex "
         "solids on flat faces");
   if (!body.inertia) return fail("and what becomes of that needs its inertia: give it a `mass` or a `density`");
-  const std::string failure = run_.lasting_contacts().begin(instant, *contact, impact, t);
+  const double rest_time = t + run_.lasting_contacts().lay_flat(instant, *contact, pair);
+  const std::string failure = run_.lasting_contacts().begin(instant, *contact, impact, rest_time);
   return failure.empty() || fail(failure);
 }
 

@@ -36,6 +36,8 @@ class ContactHandler {
   void bounce(int course, Pair pair, Impact impact);
   /// The same of a body that is no point or ball.
   void bounce_off(int course, Pair pair, Impact impact);
+  /// The body sticks to the obstacle.
+  void stick(int course, const Pair& pair, Impact impact);
   /// Whether a solid that has bounced does not fly any more.
   bool does_not_fly(const Instant& instant, const Pair& pair) const;
   /// A solid that does not fly any more stays in contact, and the course goes on so.

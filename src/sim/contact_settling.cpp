@@ -19,6 +19,14 @@ constexpr double kNone = 1e-12;
 /// Of the places of corners.
 constexpr double kRoundings = 16.0;
 
+/// Whether a contact that would have to pull at that side does so as a whole.
+bool departs(const ContactPoints& contact, int side) { return contact.is_one() || (contact.is_rim && side == 0); }
+
+/// The points on which it goes on else.
+std::vector<int> remaining(const ContactPoints& contact, int side) {
+  return contact.is_rim ? std::vector<int>() : contact.remaining[static_cast<std::size_t>(side)];
+}
+
 }  // namespace
 
 void narrow(RestingContact& contact, const std::vector<int>& remaining) {
@@ -26,6 +34,11 @@ void narrow(RestingContact& contact, const std::vector<int>& remaining) {
   for (const int each : remaining) corners.push_back(contact.corners[static_cast<std::size_t>(each)]);
   ranges::sort(corners);
   contact.corners = std::move(corners);
+}
+
+void ContactSettling::leave_out(RestingContact& contact, const std::vector<int>& remaining) {
+  tips_over_rim_ = tips_over_rim_ || contact.is_on_rim;
+  if (!contact.is_on_rim) narrow(contact, remaining);
 }
 
 std::vector<int> ContactSettling::own() const {
@@ -143,8 +156,8 @@ bool ContactSettling::stop(const BodyTerms<double>& terms, const std::vector<Con
   const ContactDecision decision = decide_contacts(terms, questions, modes, true);
   if (decision.pulling >= 0) {
     const auto pulling = static_cast<std::size_t>(decision.pulling);
-    if (terms.contacts[pulling].is_one()) return true;  // it departs
-    narrow(contact(own()[pulling]), terms.contacts[pulling].remaining[static_cast<std::size_t>(decision.pulled_side)]);
+    if (departs(terms.contacts[pulling], decision.pulled_side)) return true;
+    leave_out(contact(own()[pulling]), remaining(terms.contacts[pulling], decision.pulled_side));
     return false;
   }
   failure = decision.failure;
@@ -213,7 +226,7 @@ bool ContactSettling::keep_touching(const BodyTerms<double>& terms, int& gone) {
       gone = own[c];
       return false;
     }
-    narrow(contact(own[c]), touching);
+    leave_out(contact(own[c]), touching);
   }
   return true;
 }
@@ -276,6 +289,7 @@ std::string ContactSettling::settle(const std::vector<EndedMode>& ended, const R
   has_tipped_ = ranges::any_of(ended, [](const EndedMode& each) { return each.end == ContactEnd::tips; });
   for (int round = 0; round < kMostRounds; ++round) {
     kinds_.clear();
+    if (tips_over_rim_) return kTipsOverRim;
     const std::vector<int> own = this->own();
     if (own.empty()) return "";
     if (has_sunk()) return "a corner has sunk into the surface, where it was not seen to come";
@@ -291,6 +305,7 @@ std::string ContactSettling::settle(const std::vector<EndedMode>& ended, const R
       release(gone);
       continue;
     }
+    if (tips_over_rim_) continue;
     if (has_bounced) continue;  // what flies too low for a flight is stopped
     terms = look();
     // what others have bounced off may come back at once
@@ -298,11 +313,10 @@ std::string ContactSettling::settle(const std::vector<EndedMode>& ended, const R
     const ContactDecision decision = decide_contacts(*terms, asked, modes_by_velocity(*terms, asked));
     if (decision.pulling >= 0) {
       const auto pulling = static_cast<std::size_t>(decision.pulling);
-      if (terms->contacts[pulling].is_one()) {
+      if (departs(terms->contacts[pulling], decision.pulled_side)) {
         release(own[pulling]);
       } else {
-        narrow(contact(own[pulling]),
-               terms->contacts[pulling].remaining[static_cast<std::size_t>(decision.pulled_side)]);
+        leave_out(contact(own[pulling]), remaining(terms->contacts[pulling], decision.pulled_side));
         has_tipped_ = true;
       }
       continue;

@@ -11,6 +11,10 @@
 
 namespace trajet {
 
+/// Why a body cannot be followed that lay flat on a round face and does so no more.
+inline constexpr const char* kTipsOverRim =
+    "it tips over the rim of the round face on which it lay flat, and how it goes on from there is not computed yet";
+
 /// What has ended at one of an instant's contacts.
 struct EndedMode {
   PairId id;
@@ -68,6 +72,8 @@ class ContactSettling {
   bool are_closing(const BodyTerms<double>& terms);
   /// Of the corners that touch, those that forces and velocities let sink are taken on; whether there were any.
   bool take_sinking(const BodyTerms<double>& terms, const std::vector<ContactForce<double>>& forces);
+  /// A contact goes on on some of its corners; of a round rim that is not known how.
+  void leave_out(RestingContact& contact, const std::vector<int>& remaining);
   RestingContact& contact(int index) { return instant_.contacts[static_cast<std::size_t>(index)]; }
   /// What rounding has left of the velocity of a body that stands still.
   void stand_still();
@@ -82,6 +88,7 @@ class ContactSettling {
   int body_;
   double restitution_;
   bool has_tipped_ = false;  // of corners that touched some would have to pull
+  bool tips_over_rim_ = false;
   std::vector<Kind> kinds_;
 };
 

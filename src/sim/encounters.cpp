@@ -22,7 +22,7 @@ constexpr std::size_t kFew = 8;
 }  // namespace
 
 Encounters::Encounters(const World& world, SolidSearch& solids)
-    : world_(world), bodies_(world.bodies.size()), solids_(solids) {
+    : world_(world), bodies_(world.bodies.size()), solids_(solids), is_stuck_(world.bodies.size()) {
   // the course's 3.1 and 3.2 know whole steps only
   const bool walks = world.obstacles.size() > kFew && world.locate == Locator::polynomial;
   const auto box = [&](int index) {
@@ -51,6 +51,10 @@ Pair& Encounters::find_or_add(int body, int obstacle, double t) {
 ContactResult Encounters::first_contact_until(const Pair& pair, const ContactMemory& memory, const Course& course,
                                               double from, double to) {
   if (pair.is_lasting) return {};
+  if (is_stuck_[static_cast<std::size_t>(pair.id.body)]) {
+    const OnHit on_hit = world_.surface(pair.id.body, pair.id.obstacle).on_hit;
+    if (on_hit == OnHit::bounce || on_hit == OnHit::stick) return {};
+  }
   ++searches_;
   const World::Body& body = world_.bodies[static_cast<std::size_t>(pair.id.body)];
   const World::Obstacle& obstacle = world_.obstacles[static_cast<std::size_t>(pair.id.obstacle)];
@@ -222,11 +226,13 @@ bool Encounters::stay_in_contact(PairId id, const Course& course, double height)
 }
 
 void Encounters::take(const Instant& instant) {
-  for (const int body : instant.course().group().bodies)
+  for (const int body : instant.course().group().bodies) {
+    is_stuck_[static_cast<std::size_t>(body)] = sticking_contact(instant.contacts, body) != nullptr;
     for (Pair& pair : around(body).pairs) {
       pair.is_lasting = false;
       pair.contact = {};
     }
+  }
   for (const RestingContact& contact : instant.contacts)
     find_or_add(contact.body, contact.obstacle, instant.time()).is_lasting = true;
   for (const auto& [id, memory] : instant.memories) find_or_add(id.body, id.obstacle, instant.time()).memory = memory;

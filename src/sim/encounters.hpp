@@ -106,6 +106,7 @@ class Encounters {
   std::vector<int> in_tree_;  // the others, in the order of the tree
   std::optional<BoxTree> tree_;
   long searches_ = 0;
+  std::vector<bool> is_stuck_;  // of each body, to an obstacle: it meets nothing that would turn it back
 };
 
 }  // namespace trajet

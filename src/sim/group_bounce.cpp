@@ -110,7 +110,7 @@ GroupBounce::Setting GroupBounce::setting(const Eigen::VectorXd& q) const {
     const Instant& instant = instants_.at(body(index).group);
     // the velocity of the centre is dr/dt, which a position_rate may set apart from v
     const Vector3 drift = Vector3(slice.position(rate_)) - Vector3(slice.velocity(before_));
-    const double mass = mass_of(body(index), instant.time(), instant.before());
+    const double mass = mass_in_meetings(world_, index, instant);
     const ImpactSide side =
         impact_side(body(index), slice, q, Vector3(slice.velocity(q)) + drift, mass, Vector3(slice.position(q)));
     setting.bodies[static_cast<std::size_t>(place)] = {side.velocity, side.angular_velocity, side.inverse_mass,

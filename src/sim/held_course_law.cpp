@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "trajet/collide/sustain/stuck_law.hpp"
 #include "trajet/portable.hpp"
 
 namespace trajet {
@@ -23,6 +24,14 @@ void add_ends(std::vector<ContactEndCondition> own, const std::vector<RestingCon
   }
 }
 
+/// Whether a solid stands on a face of an obstacle at rest and does not slide: then nothing of it moves.
+bool stands_still(const World& world, const std::vector<RestingContact>& contacts, int body) {
+  return ranges::any_of(contacts, [&](const RestingContact& each) {
+    return each.body == body && each.corners.size() > 2 && each.mode.slip.is_held() &&
+           !world.obstacles[static_cast<std::size_t>(each.obstacle)].drive;
+  });
+}
+
 }  // namespace
 
 Support support_of(const std::vector<RestingContact>& contacts, int offset) {
@@ -39,7 +48,8 @@ bool HeldCourseLaw::take(const std::vector<RestingContact>& contacts, std::vecto
   const auto same = [](const RestingContact& a, const RestingContact& b) {
     const bool is_same = a.body == b.body && a.obstacle == b.obstacle && a.is_plain == b.is_plain && a.mode == b.mode &&
                          a.corners == b.corners;
-    return is_same && a.unknowns == b.unknowns && (!a.is_plain || (a.normal == b.normal && a.point == b.point));
+    return is_same && a.unknowns == b.unknowns && a.stuck_at == b.stuck_at &&
+           (!a.is_plain || (a.normal == b.normal && a.point == b.point));
   };
   const bool are_others = !ranges::equal(contacts_, contacts, same) ||
                           !ranges::equal(holds_, holds, {}, &EventHold::event, &EventHold::event);
@@ -99,10 +109,16 @@ Program HeldCourseLaw::with(const std::vector<RestingContact>& contacts, const s
                             std::vector<ContactEndCondition>* ends, std::vector<Program>* slips) const {
   Program law = group().law;
   for (const int body : group().bodies) {
+    if (const RestingContact* stuck = sticking_contact(contacts, body)) {
+      law = *stuck_law(world_, law, *stuck);
+      continue;
+    }
     if (!are_plain(contacts, body)) {
       std::optional<ContactLaw> sustained = law_with_contacts(world_, law, contacts, body);
       if (!sustained) continue;
       law = std::move(sustained->law);
+      // no rounding of forces moves it
+      if (stands_still(world_, contacts, body)) law = *make_stuck_law(law, sustained_body(world_, body), {}, {});
       if (ends != nullptr) add_ends(std::move(sustained->ends), contacts, body, *ends);
       if (slips != nullptr && !sustained->slips.outputs.empty()) slips->push_back(std::move(sustained->slips));
       continue;

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "body_state.hpp"
+#include "instant.hpp"
 #include "trajet/law/evaluate.hpp"
 #include "trajet/scene/law_name.hpp"
 #include "trajet/text/shortest_text.hpp"
@@ -16,6 +18,11 @@ double mass_of(const World::Body& body, double t, const Eigen::VectorXd& q) {
   Evaluator<double> mass(*body.mass);
   mass(t, q.data(), &value);
   return value;
+}
+
+double mass_in_meetings(const World& world, int index, const Instant& instant) {
+  if (sticking_contact(instant.contacts, index) != nullptr) return std::numeric_limits<double>::infinity();
+  return mass_of(world.bodies[static_cast<std::size_t>(index)], instant.time(), instant.before());
 }
 
 ImpactFriction friction_of(const Surface& surface) {
@@ -61,7 +68,7 @@ ImpactSide impact_side(const World::Body& body, const BodySlice& slice, const Ei
   const Matrix3 R = rotation_of(body, slice, q);
   const Vector3 w = slice.angular_velocity(q);
   side.angular_velocity = body.rotation->layout.frame == Frame::world ? w : Vector3(R * w);
-  if (body.inertia) side.inverse_inertia = R * body.inertia->inverse() * R.transpose();
+  if (body.inertia && std::isfinite(mass)) side.inverse_inertia = R * body.inertia->inverse() * R.transpose();
   return side;
 }
 

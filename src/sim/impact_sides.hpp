@@ -9,8 +9,14 @@
 
 namespace trajet {
 
+class Instant;
+
 /// kg; 1 where the body has none: impulses are per mass then.
 double mass_of(const World::Body& body, double t, const Eigen::VectorXd& q);
+
+/// The same at an instant, for impacts with other bodies: infinite of a body that sticks to an obstacle, which no
+/// impulse moves.
+double mass_in_meetings(const World& world, int body, const Instant& instant);
 
 /// What a surface has of friction in impacts.
 ImpactFriction friction_of(const Surface& surface);
@@ -26,7 +32,8 @@ std::string describe_impossible_restitution(const std::string& owner, const Surf
 /// R_WB of a body whose numbers stand at `slice` of a state.
 Matrix3 rotation_of(const World::Body& body, const BodySlice& slice, const Eigen::VectorXd& q);
 
-/// The body as one side of an impact at a point of the world. `velocity`: of its centre, m/s.
+/// The body as one side of an impact at a point of the world. `velocity`: of its centre, m/s. An infinite mass: no
+/// impulse moves or turns it.
 ImpactSide impact_side(const World::Body& body, const BodySlice& slice, const Eigen::VectorXd& q,
                        const Vector3& velocity, double mass, const Vector3& point);
 

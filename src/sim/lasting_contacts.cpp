@@ -80,6 +80,7 @@ void LastingContacts::release_moving(Instant& instant, int moved) {
 }
 
 std::string LastingContacts::release_by_speed(Instant& instant, int moved) {
+  if (sticking_contact(instant.contacts, moved) != nullptr) return "";
   if (!are_plain(instant.contacts, moved)) {
     release_moving(instant, moved);
     return release_by_force(instant, moved);
@@ -118,6 +119,7 @@ void LastingContacts::keep_kinds(const ContactSettling& settling, const Instant&
 }
 
 std::string LastingContacts::release_by_force(Instant& instant, int held, const std::vector<EndedMode>& ended) {
+  if (sticking_contact(instant.contacts, held) != nullptr) return "";
   if (!are_plain(instant.contacts, held)) {
     ContactSettling settling(world_, encounters_, instant, held);
     const std::string failure = settling.settle(ended, [&](int index) {
@@ -148,6 +150,12 @@ std::string LastingContacts::release_after_set(Instant& instant) {
   for (const int index : instant.course().group().bodies) {
     const auto is_of_body = [&](const RestingContact& contact) { return contact.body == index; };
     if (ranges::none_of(instant.contacts, is_of_body)) continue;
+    if (const RestingContact* stuck = sticking_contact(instant.contacts, index)) {
+      const BodySlice slice = body(index).slice();
+      if (instant.q.segment(slice.first, slice.size()) != before.segment(slice.first, slice.size()))
+        let_go(instant, *stuck);
+      continue;
+    }
     const int offset = body(index).offset;
     if (instant.q.segment<3>(offset) == before.segment<3>(offset)) {
       if (const std::string failure = release_by_speed(instant, index); !failure.empty()) return failure;
@@ -337,6 +345,9 @@ std::string LastingContacts::handle_end(Instant& instant, int index, ContactEnd 
     ContactSettling(world_, encounters_, instant, instant.contacts[static_cast<std::size_t>(index)].body).look();
   const RestingContact contact = instant.contacts[static_cast<std::size_t>(index)];
   if (end == ContactEnd::touches) return touch(instant, index, time_error_bound);
+  if (end == ContactEnd::tips && contact.is_on_rim) return kTipsOverRim;
+  if (end == ContactEnd::past_edge && contact.is_on_rim)
+    return "the round face on which it lies flat comes over the edge of the surface, which is not computed yet";
   if (end == ContactEnd::tips) {
     const auto points = contact_points({sustained_contact(world_, contact)}).front();
     narrow(instant.contacts[static_cast<std::size_t>(index)], points.remaining[static_cast<std::size_t>(detail)]);

@@ -34,6 +34,12 @@ class LastingContacts {
   /// The body stays on the obstacle from the impact on. Its last flights, which nobody can tell from contact, would be
   /// over at `rest_time`: then the rest is reported. Why it cannot be followed; empty if it is.
   std::string begin(Instant& instant, RestingContact contact, const Impact& impact, double rest_time);
+  /// Takes from a body that lies flat on a round face the speed, too low for a flight, at which it still departs as a
+  /// whole. How long the flights to come would have taken, s; 0 of other contacts.
+  double lay_flat(Instant& instant, const RestingContact& contact, const Pair& pair) const;
+  /// The body sticks to the obstacle from the impact on, of which it tells what came of it. Why that cannot be
+  /// followed; empty if it is.
+  std::string stick(Instant& instant, PairId id, Impact& impact);
   /// After an impact that gave a resting body its velocity: ends the contacts from or into which it moves now, and
   /// takes out of the velocity what the others do not let pass.
   std::string release_by_speed(Instant& instant, int body);
@@ -58,6 +64,8 @@ class LastingContacts {
   void keep_kind(PairId id, ImpactKind kind);
   /// Keeps and reports how contacts go on.
   void keep_kinds(const ContactSettling& settling, const Instant& instant);
+  /// An event's `set` has moved a body that sticks: it goes on freely.
+  void let_go(Instant& instant, const RestingContact& contact);
   /// Another corner of a solid comes to the surface on which the solid stays.
   std::string touch(Instant& instant, int contact, double time_error_bound);
   /// Ends a contact; its pair remembers it.

@@ -70,7 +70,10 @@ void MeetingHandler::handle(int course, const Meeting& met) {
   const bool is_hit = contact.status == ContactStatus::hit && contact.direction != ContactDirection::leaving;
   if (is_hit && surface.on_hit == OnHit::bounce) {
     if (goes_on_from_contact(meeting)) return pass_on(meeting);
-    return bounce(meeting, surface, impact);
+    if (!sticks(meeting.id.first) || !sticks(meeting.id.second)) return bounce(meeting, surface, impact);
+    // obstacles, to which they stick, go through each other
+    run_.meetings().pass(meeting.id);
+    return pass_on(meeting);
   }
   if (is_hit && surface.on_hit == OnHit::stop) {
     sample(meeting, SamplePhase::before);
@@ -81,6 +84,10 @@ void MeetingHandler::handle(int course, const Meeting& met) {
   record(meeting, impact);
   run_.meetings().pass(meeting.id);
   pass_on(meeting);
+}
+
+bool MeetingHandler::sticks(int body) const {
+  return sticking_contact(run_.course(run_.course_of(body)).held_law().contacts(), body) != nullptr;
 }
 
 void MeetingHandler::pass_on(const Meeting& meeting) {
@@ -162,6 +169,7 @@ void MeetingHandler::bounce(const Meeting& meeting, const Surface& surface, Impa
   };
   for (const int each : {meeting.id.first, meeting.id.second}) {
     const World::Body& one = body(each);
+    if (sticks(each)) continue;
     if (!one.mass)
       return end("bodies " + names(meeting) + " meet, and what becomes of that needs their masses: give '" + one.name +
                  "' a `mass` or a `density`");

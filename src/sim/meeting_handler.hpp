@@ -24,6 +24,8 @@ class MeetingHandler {
   bool moves_on_alike(const Meeting& meeting);
   /// Why it is not certain that they meet, as far as the motions are known; else empty.
   std::string describe_doubt(const Meeting& meeting);
+  /// Whether a body sticks to an obstacle.
+  bool sticks(int body) const;
   void bounce(const Meeting& meeting, const Surface& surface, Impact impact);
   void record(const Meeting& meeting, const Impact& impact);
   void sample(const Meeting& meeting, SamplePhase phase);

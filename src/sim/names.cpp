@@ -30,6 +30,8 @@ std::string_view name(ImpactKind kind) {
       return "roll";
     case ImpactKind::leave:
       return "leave";
+    case ImpactKind::stick:
+      return "stick";
   }
   return "";
 }

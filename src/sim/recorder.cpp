@@ -144,6 +144,7 @@ void Recorder::impacts(std::vector<Impact> group) {
     ++group_count_;
     for (Impact& each : group) each.group = group_count_;
   }
+  if (group.empty()) return;
   impact(group.front());
   for (Impact& each : std::span(group).subspan(1)) keep(std::move(each));
 }

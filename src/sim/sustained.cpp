@@ -1,5 +1,6 @@
 #include "sustained.hpp"
 
+#include "trajet/collide/sustain/stuck_law.hpp"
 #include "trajet/portable.hpp"
 
 namespace trajet {
@@ -39,10 +40,13 @@ SustainedContact sustained_contact(const World& world, const RestingContact& con
   SustainedContact result{.patch = contact.patch,
                           .friction = {surface.friction, surface.rolling_friction, surface.spinning_friction},
                           .mode = contact.mode};
+  result.is_on_rim = contact.is_on_rim;
   if (contact.core) {
     for (int i = 0; i < static_cast<int>(contact.core->vertices.size()); ++i)
       (ranges::find(contact.corners, i) != contact.corners.end() ? result.corners : result.others)
           .push_back(support_corner(*contact.core, i));
+    // what lies flat on a round face has its other corners above it, and they stay there
+    if (contact.is_on_rim) result.others.clear();
   } else {
     result.corners = {{.rounding = bounding_radius(world.bodies[static_cast<std::size_t>(contact.body)].solid)}};
   }
@@ -86,6 +90,10 @@ std::optional<ContactLaw> law_with_contacts(const World& world, const Program& l
     if (contact.body == body) unknowns.insert(unknowns.end(), contact.unknowns.begin(), contact.unknowns.end());
   ranges::sort(unknowns, {}, &ContactUnknown::order);
   return make_contact_law(law, sustained_body(world, body), sustained(world, contacts, body), unknowns);
+}
+
+std::optional<Program> stuck_law(const World& world, const Program& law, const RestingContact& contact) {
+  return make_stuck_law(law, sustained_body(world, contact.body), sustained_contact(world, contact), *contact.stuck_at);
 }
 
 }  // namespace trajet

@@ -34,4 +34,7 @@ std::optional<BodyTerms<double>> contact_terms(const World& world, const Program
 std::optional<ContactLaw> law_with_contacts(const World& world, const Program& law,
                                             const std::vector<RestingContact>& contacts, int body);
 
+/// The law of a group in which a body sticks to an obstacle; none where the obstacle moves by what has no derivative.
+std::optional<Program> stuck_law(const World& world, const Program& law, const RestingContact& contact);
+
 }  // namespace trajet

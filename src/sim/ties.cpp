@@ -25,12 +25,15 @@ const Pair& pair_of(const Encounters& encounters, PairId id) {
 }  // namespace
 
 PairId first_to_handle(const World& world, const Encounters& encounters, const Pair& contact) {
-  const auto bounces = [&](const Pair& pair) {
-    return surface_of(world, pair).on_hit == OnHit::bounce && is_hit(pair.contact);
-  };
-  if (bounces(contact)) return contact.id;
-  for (const PairId id : encounters.met_at_once(contact))
-    if (bounces(pair_of(encounters, id))) return id;
+  // what sticks does not come to bounce
+  for (const OnHit first : {OnHit::stick, OnHit::bounce}) {
+    const auto is_first = [&](const Pair& pair) {
+      return surface_of(world, pair).on_hit == first && is_hit(pair.contact);
+    };
+    if (is_first(contact)) return contact.id;
+    for (const PairId id : encounters.met_at_once(contact))
+      if (is_first(pair_of(encounters, id))) return id;
+  }
   return contact.id;
 }
 
@@ -61,7 +64,7 @@ bool settle_other_contacts(const World& world, Encounters& encounters, const Pai
     memory.contact_time = impact.elapsed;
     instant.memories.emplace_back(id, memory);
     const OnHit on_hit = surface_of(world, pair).on_hit;
-    if (on_hit == OnHit::bounce && is_hit(pair.contact)) continue;
+    if ((on_hit == OnHit::bounce || on_hit == OnHit::stick) && is_hit(pair.contact)) continue;
     Impact passed = describe(world, pair, encounters.frame(id.obstacle, impact.elapsed), instant.before());
     passed.elapsed = impact.elapsed;
     recorder.impact(passed);

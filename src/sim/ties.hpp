@@ -11,8 +11,8 @@ inline bool is_hit(const ContactResult& contact) {
   return contact.status == ContactStatus::hit && contact.direction != ContactDirection::leaving;
 }
 
-/// Of a pair's contact and those at the same instant the one to handle first: a bounce, so that what else was touched
-/// counts once, on whichever side of it the body is then.
+/// Of a pair's contact and those at the same instant the one to handle first: one at which the body sticks; else a
+/// bounce, so that what else was touched counts once, on whichever side of it the body is then.
 PairId first_to_handle(const World& world, const Encounters& encounters, const Pair& contact);
 
 /// Says that impacts of other pairs, which will not be handled, or handled otherwise, because `impact` of `handled`

@@ -107,8 +107,8 @@ TEST(Compound, TwoHalvesOfABoxAreTheBox) {
   const Compound compound = make_compound({{Cuboid{{0.5, 1, 1.5}}, Vector3(3, 4, 5) + R * Vector3(0.5, 0, 0), R},
                                            {Cuboid{{0.5, 1, 1.5}}, Vector3(3, 4, 5) - R * Vector3(0.5, 0, 0), R}});
   const VolumeProperties box = box_properties({2, 2, 3});
-  EXPECT_NEAR(compound.parts->properties.volume, box.volume, 1e-13);
-  EXPECT_LE((compound.parts->properties.inertia - R * box.inertia * R.transpose()).norm(), 1e-12);
+  EXPECT_NEAR(compound.parts->volume, box.volume, 1e-13);
+  EXPECT_LE((volume_properties(compound)->inertia - R * box.inertia * R.transpose()).norm(), 1e-12);
   EXPECT_LE((compound.parts->origin + Vector3(3, 4, 5)).norm(), 1e-14);
   EXPECT_FALSE(compound.parts->mass);
 }

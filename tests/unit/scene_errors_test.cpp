@@ -111,8 +111,8 @@ const BadScene kBadScenes[] = {
      "10:23", "length"},
     {"[[obstacle]]\nname = \"o\"\nshape = \"plane\"\npoint = [0,0,0]\nnormal = [0,0,1]\nimpact = \"newtn\"", "8:10",
      "did you mean 'newton'?"},
-    {"[[obstacle]]\nname=\"o\"\nshape=\"sphere\"\ncenter=[0,0,0]\nradius=1\non_hit = \"stick\"", "8:10",
-     "stop, bounce, pass"},
+    {"[[obstacle]]\nname=\"o\"\nshape=\"sphere\"\ncenter=[0,0,0]\nradius=1\non_hit = \"stik\"", "8:10",
+     "did you mean 'stick'?"},
     {"[[obstacle]]\nname=\"o\"\nshape=\"box\"\ncenter=[0,0,0]\nsize=[1,1,1]\norientation = {}", "8:15", "one of"},
     // types
     {"title = 3\n[time]\nend = 1", "1:9", "a string expected, got a number"},

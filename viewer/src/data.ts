@@ -44,7 +44,7 @@ export interface Impact {
   time: number;
   body: string;
   with: string;
-  kind: "hit" | "graze" | "rest" | "slide" | "roll" | "leave";
+  kind: "hit" | "graze" | "rest" | "slide" | "roll" | "stick" | "leave";
   point: Vector;
   /** Unit, to the side that the body came from. */
   normal: Vector;

@@ -16,6 +16,7 @@ const kVerbs = {
   rest: "rests on",
   slide: "slides on",
   roll: "rolls on",
+  stick: "sticks to",
   leave: "leaves",
 };
 

@@ -91,7 +91,7 @@ struct PlaneShape {
   Expression normal;  ///< any length
 };
 struct DiskShape {
-  Expression normal;  ///< any length
+  Expression normal;  ///< any length; of a body along z of its frame
   Expression radius;  ///< m
 };
 struct RectangleShape {
@@ -144,7 +144,7 @@ struct CollidesWith {
   SourceLocation where{};
 };
 
-enum class OnHit { stop, bounce, pass };
+enum class OnHit { stop, bounce, pass, stick };
 
 /// What ends the restitution of an impact with friction: the work that compression has done times e^2 is given back
 /// (Stronge), its impulse times e (Poisson), or the normal speed times e (Newton).
@@ -162,8 +162,8 @@ struct FrictionDefinition {
 /// A moving body. Its name is usable in every law as NAME.r, NAME.vx, ….
 struct BodyDefinition {
   std::string name;
-  /// Its centre of mass is the origin of the body's frame: hulls, meshes and compounds are moved there. Planes and what
-  /// is thin are no bodies.
+  /// Its centre of mass is the origin of the body's frame: hulls, meshes and compounds are moved there. Planes and
+  /// what is thin are no bodies, but for disks.
   ShapeDefinition shape = PointShape{};
   std::optional<Expression> rounding{};       ///< radius of the shape's edges and corners, inside it, m; none: sharp
   Expression position = Vector3(0, 0, 0);     ///< p_WB at the start, m

@@ -25,6 +25,7 @@ enum class ImpactKind {
   slide,  ///< it stays in contact and slides, against friction
   roll,   ///< it stays in contact and rolls without slip
   leave,  ///< contact ends
+  stick,  ///< it stays where it has hit, and moves as that does
 };
 
 /// A contact that lasts, in one way.
@@ -33,7 +34,7 @@ struct ContactSpan {
   std::optional<double> to{};  ///< none: it lasts at the end of the run
   std::string body;
   std::string with;                    ///< an obstacle
-  ImpactKind mode = ImpactKind::rest;  ///< rest, slide or roll
+  ImpactKind mode = ImpactKind::rest;  ///< rest, slide, roll or stick
 };
 
 /// The motion of the other body of an impact of two. World frame, SI units.

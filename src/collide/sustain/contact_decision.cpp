@@ -75,7 +75,8 @@ class Decision {
       // of two or more, so small a part of what they bear is rounding of the places
       constexpr double kRounding = 1e-12;
       const double scale = contact.is_one() ? 0.0 : kRounding * contact.sides.cwiseAbs().maxCoeff() * forces_[c].normal;
-      const std::vector<double> loads = loads_of_sides(contact, forces_[c].shares);
+      std::vector<double> loads = loads_of_sides(contact, forces_[c].shares);
+      if (contact.is_rim) loads = {forces_[c].normal, forces_[c].normal - std::hypot(loads[0], loads[1])};
       for (std::size_t side = 0; side < loads.size(); ++side) {
         if (loads[side] >= std::min(most, -scale)) continue;
         pulling = {static_cast<int>(c), static_cast<int>(side)};
@@ -317,6 +318,7 @@ class Decision {
   bool begin_along(Resistance& it, Way way, std::size_t c, Vector3 motion, double per_force) {
     constexpr int kRounds = 50;
     constexpr double kSettled = 1e-15;
+    constexpr double kRoundings = 16.0;  // of the forces, of which little may be left
     const double unit = std::max(questions_[c].radius, 1e-300);
     for (int i = 0; i < kRounds; ++i) {
       const Vector3 direction = motion.normalized();
@@ -327,7 +329,8 @@ class Decision {
       if (unit * faster.norm() <= kNoAcceleration * per_force) return true;
       if (!(faster.dot(direction) > 0.0)) return false;
       motion = faster;
-      if ((motion.normalized() - direction).norm() <= kSettled) return true;
+      const double rounding = std::max(1.0, kRoundings * per_force / (unit * faster.norm()));
+      if ((motion.normalized() - direction).norm() <= kSettled * rounding) return true;
     }
     return false;
   }

@@ -204,9 +204,14 @@ std::optional<ContactLaw> make_contact_law(const Program& law, const SustainedBo
       end(c, starts, squared - square(ProgramNumber(coefficient) * force.normal));
     };
     const auto squared = [](const NumberVector& v) { return v.dot(v); };
-    const std::vector<ProgramNumber> loads = loads_of_sides(points, force.shares);
-    for (std::size_t side = 0; side < loads.size(); ++side)
-      end(c, points.is_one() ? ContactEnd::pull : ContactEnd::tips, -loads[side], static_cast<int>(side));
+    if (points.is_rim) {
+      end(c, ContactEnd::pull, -force.normal);
+      end(c, ContactEnd::tips, -load_within_rim(points, force.shares));
+    } else {
+      const std::vector<ProgramNumber> loads = loads_of_sides(points, force.shares);
+      for (std::size_t side = 0; side < loads.size(); ++side)
+        end(c, points.is_one() ? ContactEnd::pull : ContactEnd::tips, -loads[side], static_cast<int>(side));
+    }
     const int sticking = mode.sticking_point();
     if (sticking >= 0) {
       end(c, ContactEnd::slip_stops, ProgramNumber(-mode.slip.sign) * at.normal.dot(at.turning));

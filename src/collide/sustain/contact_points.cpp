@@ -63,9 +63,10 @@ std::vector<ContactPoints> contact_points(const std::vector<SustainedContact>& c
     const Vector3 middle = middle_of(corners);
     for (const Vector3& corner : corners) points.spread += (corner - middle).norm() / static_cast<double>(count);
     points.sides = points.shares;
+    points.is_rim = contact.is_on_rim;
     points.remaining = count == 2 ? std::vector<std::vector<int>>{{1}, {0}} : std::vector<std::vector<int>>(1);
     if (count < 3) continue;
-    const std::vector<HullEdge> edges = hull_edges(corners);
+    const std::vector<HullEdge> edges = points.is_rim ? std::vector<HullEdge>() : hull_edges(corners);
     points.sides.setZero(static_cast<Eigen::Index>(edges.size()), count);
     points.remaining.clear();
     for (std::size_t e = 0; e < edges.size(); ++e) {
@@ -84,6 +85,7 @@ std::vector<ContactPoints> contact_points(const std::vector<SustainedContact>& c
       const Vector3 arm = (corners[static_cast<std::size_t>(i)] - middle) / points.spread;
       points.shares.col(i) << 1.0, x.dot(arm), y.dot(arm);
     }
+    if (points.is_rim) points.sides = points.shares.bottomRows(2);
   }
   return result;
 }

@@ -5,6 +5,7 @@
 
 #include "trajet/geom/flat_faces.hpp"
 #include "trajet/law/program_number.hpp"
+#include "trajet/portable.hpp"
 
 namespace trajet {
 namespace {
@@ -42,6 +43,12 @@ Vector3 part_outside(const std::vector<Vector3>& orthonormal, Vector3 vector) {
 }
 
 }  // namespace
+
+const RestingContact* sticking_contact(const std::vector<RestingContact>& contacts, int body) {
+  const auto found =
+      ranges::find_if(contacts, [body](const RestingContact& each) { return each.body == body && each.stuck_at; });
+  return found != contacts.end() ? &*found : nullptr;
+}
 
 Support support(const std::vector<Vector3>& normals) {
   Support support;

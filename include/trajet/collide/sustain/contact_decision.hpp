@@ -33,7 +33,7 @@ struct ContactDecision {
   std::vector<ContactUnknown> unknowns{};
   std::vector<ContactForce<double>> forces{};
   int pulling = -1;       ///< of the contacts that would have to pull at a side, the one that pulls most; else -1
-  int pulled_side = 0;    ///< of it
+  int pulled_side = 0;    ///< of it; of a rim 0 as a whole, 1 beyond one side
   std::string failure{};  ///< why no mode fits
 };
 

@@ -43,6 +43,7 @@ struct SustainedContact {
   bool turns = false;                    ///< the obstacle
   std::vector<SupportCorner> corners{};  ///< of the body that touch; several lie on a flat patch
   std::vector<SupportCorner> others{};   ///< that may come to touch, on a flat patch
+  bool is_on_rim = false;                ///< the corners are points of the rim of a round face that lies flat
   FrictionCoefficients friction{};
   ContactMode mode{};
 };

@@ -31,6 +31,9 @@ struct ContactPoints {
   /// points)
   Eigen::MatrixXd sides{};
   std::vector<std::vector<int>> remaining{};  ///< counted in `points`
+  /// The points are spread evenly on the rim of a round face: `sides` has their two coordinates in units of its radius,
+  /// and what it bears is within the rim where their moment is less than the whole force (`load_within_rim`).
+  bool is_rim = false;
 
   bool is_one() const { return points.size() == 1; }
 };
@@ -55,6 +58,16 @@ std::vector<T> loads_of_sides(const ContactPoints& contact, const std::vector<T>
     loads.push_back(load);
   }
   return loads;
+}
+
+/// Of the rim of a round face, positive where what it bears is within it: N^2 - m^2, m the moment about its middle over
+/// the radius.
+template <class T>
+T load_within_rim(const ContactPoints& contact, const std::vector<T>& shares) {
+  T whole(0.0);
+  for (const T& share : shares) whole += share;
+  const std::vector<T> moment = loads_of_sides(contact, shares);
+  return whole * whole - moment[0] * moment[0] - moment[1] * moment[1];
 }
 
 /// What a contact does to the body. World frame.

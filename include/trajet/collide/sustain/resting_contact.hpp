@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "trajet/collide/sustain/contact_forces.hpp"
@@ -28,8 +29,15 @@ struct RestingContact {
   /// Of a solid that is no point or ball: its corners, and which of them touch.
   std::shared_ptr<const ConvexCore> core{};
   std::vector<int> corners{};
+  /// Whether it lies flat on a round face: the corners are points of its rim (`level_rim`).
+  bool is_on_rim = false;
   std::vector<ContactUnknown> unknowns{};  ///< of its forces; `contact` counts the contacts of the body
+  /// Where the body's centre sticks to the obstacle, m, as that stood at the start; none: it does not stick.
+  std::optional<Vector3> stuck_at{};
 };
+
+/// The contact in which a body sticks to an obstacle; null if it does not.
+const RestingContact* sticking_contact(const std::vector<RestingContact>& contacts, int body);
 
 /// What the contacts of one body on several obstacles with the normals n_i do together.
 struct Support {
