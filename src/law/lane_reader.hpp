@@ -42,7 +42,7 @@ class LaneReader {
 
   bool is_constant(int slot) const;
   bool are_constant(const Lanes& lanes) const;
-  /// The values of constants, in spare lanes that of the first.
+  /// The values of constants, 0 in spare lanes.
   std::array<double, 4> values(const Lanes& lanes) const;
   /// The slots that the Program has for constants, else -1.
   std::array<int, 4> constant_slots(const Lanes& lanes) const;

@@ -101,13 +101,16 @@ const std::vector<double> kState{0.3, -0.4, 0.7, 1.1, 0.6, -0.5, 0.8, -0.3};
 
 bool works_in_blocks(const Program& program) { return detail::bundle(program).has_value(); }
 
-/// The largest difference of two numbers over their size, or over 1 where they are smaller.
+/// The largest difference of two numbers over their size, or over 1 where they are smaller; not a number if one is.
 template <class A, class B>
 double difference(const A& a, const B& b) {
   double largest = 0.0;
-  for (std::size_t i = 0; i < a.size(); ++i)
-    largest =
-        std::max(largest, std::abs(static_cast<double>(a[i] - b[i])) / (1.0 + std::abs(static_cast<double>(b[i]))));
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    const double size = 1.0 + std::abs(static_cast<double>(b[i]));
+    const double each = std::abs(static_cast<double>(a[i] - b[i])) / size;
+    if (std::isnan(each)) return each;
+    largest = std::max(largest, each);
+  }
   return largest;
 }
 
@@ -222,14 +225,27 @@ TEST(BlockProgram, a_length_that_vanishes_has_the_series_that_it_has_number_by_n
 }
 
 TEST(BlockProgram, a_branch_that_a_vector_decides_ends_where_it_does_number_by_number) {
-  // the body turns where its height passes 1: z + vz s + a s^2/2 = 1
-  const Program program = compile("where(z < 1, [0, 0, 2], [0, 0, -3]) - 0.0*r + cross([0, 0, 1], v)");
+  // the body turns where its height passes 1: z + vz s + s^2 = 1, whatever it does sideways
+  const Program program =
+      compile("where(z < 1, [0, 0, 2], [0, 0, -3]) + cross([0, 0, 1], v) - norm(r)*dot(r, v)*[x, y, 0]", "0", "0");
+  ASSERT_TRUE(works_in_blocks(program));
   ProgramExpansion expansion(program);
   std::vector<double> q = kState;
   q[5] = 0.5;
   terms(expansion, 0.0, q, 16);
   const double s = expansion.duration_until_branch(5.0);
   EXPECT_NEAR(q[2] + q[5] * s + s * s, 1.0, 4e-15);
+  // from where it is then, the other branch is taken, though rounding has put it on this side
+  std::vector<double> c(q.size() * 17);
+  expansion.expand(0.0, q.data(), 16, c.data());
+  ASSERT_EQ(expansion.duration_until_branch(5.0), s);
+  for (std::size_t i = 0; i < q.size(); ++i) {
+    q[i] = 0.0;
+    for (std::size_t k = 17; k-- > 0;) q[i] = q[i] * s + c[k * q.size() + i];
+  }
+  q[2] = 1.0 - 1e-15;
+  expansion.expand(s, q.data(), 16, c.data());
+  EXPECT_EQ(2.0 * c[2 * q.size() + 2], -3.0);
 }
 
 /// A law that offers no border.
@@ -271,7 +287,7 @@ TEST(BlockProgram, methods_take_the_same_steps_over_the_border_as_number_by_numb
   symbols.set_inputs("v", {4, 5, 6});
   ProgramBuilder point(7);
   point.add_output(point.inputs({4, 5, 6}));
-  point.add_output(point.compile_vector(Expression("-r/norm(r)^3 - [0.1, 0.2, 0.3]"), symbols));
+  point.add_output(point.compile_vector(Expression("-r/norm(r)^3 + cross([0.1, 0.2, 0.3], v)"), symbols));
   for (const Program& program : {point.build(), compile_solid()}) {
     std::vector<double> start{1, 0.2, -0.3, 0.1, 1.1, 0.3, 0.5, -0.5, 0.1, 0.7, 1.5, -0.4, 0.9};
     start.resize(program.outputs.size());
@@ -322,25 +338,40 @@ TEST(BlockProgram, products_of_vectors_are_one_instruction) {
   EXPECT_LT(difference(terms(in_blocks, 0.0, kState, 20), terms(by_numbers, 0.0, kState, 20)), 1e-14);
 }
 
-TEST(BlockProgram, constants_may_be_replaced) {
+TEST(BlockProgram, vectors_that_change_alike_change_each) {
   Symbols symbols;
-  symbols.set_inputs("r", {1, 2, 3});
   symbols.set_inputs("v", {4, 5, 6});
-  // a constant that stands in a slot of the program, since it is added to what is no constant in lanes of a vector
   ProgramBuilder builder(7);
-  builder.add_output(builder.inputs({4, 5, 6}));
-  const ProgramBuilder::Value v = builder.compile_vector(Expression("-2*v"), symbols);
-  const int pin = builder.constant_node(ExtendedConstant(0.123456789));
-  ProgramBuilder::Value held = v;
-  for (int& node : held.nodes) node = builder.combine(Opcode::max, node, pin);
-  builder.add_output(held);
+  const ProgramBuilder::Value rate = builder.compile_vector(Expression("-norm(v)*v"), symbols);
+  builder.add_output(rate);
+  builder.add_output(rate);
   const Program program = builder.build();
-  ASSERT_EQ(program.constants.size(), 1u);
-  const std::vector<double> q{0, 0, 0, 1, -2, 3};
+  ASSERT_TRUE(works_in_blocks(program));
+  const std::vector<double> q{0, 0, 0, 1, -2, 2};
   RateEvaluator evaluate(program);
-  EXPECT_EQ(rate_in_blocks(evaluate, 0.0, q), (std::vector<double>{1, -2, 3, 0.123456789, 4, 0.123456789}));
-  evaluate.set_constant(program.constants.front().slot, -4.0);
-  EXPECT_EQ(rate_in_blocks(evaluate, 0.0, q), (std::vector<double>{1, -2, 3, -2, 4, -4}));
+  EXPECT_EQ(rate_in_blocks(evaluate, 0.0, q), (std::vector<double>{-3, 6, -6, -3, 6, -6}));
+  ProgramExpansion expansion(program);
+  const std::vector<double> series = terms(expansion, 0.0, q, 6);
+  for (std::size_t k = 6; k < series.size(); k += 6)
+    for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(series[k + i], series[k + 3 + i]);
+}
+
+TEST(BlockProgram, constants_may_be_replaced) {
+  // the 3 lies in a slot, and in a lane of the block whose length is taken
+  const Program program = compile("norm([vx, vy, 3])*v", "0", "0");
+  ASSERT_TRUE(works_in_blocks(program));
+  const auto three = std::find_if(program.constants.begin(), program.constants.end(),
+                                  [](const Program::Constant& constant) { return constant.value.value == 3.0; });
+  ASSERT_NE(three, program.constants.end());
+  RateEvaluator evaluate(program);
+  ProgramExpansion expansion(program);
+  terms(expansion, 0.0, kState, 4);
+  evaluate.set_constant(three->slot, -7.0);
+  expansion.set_constant(three->slot, -7.0);
+  const Program other = compile("norm([vx, vy, -7])*v", "0", "0");
+  ProgramExpansion expected(other);
+  EXPECT_LT(difference(rate_in_blocks(evaluate, 0.0, kState), rate_by_numbers(other, 0.0, kState)), 1e-15);
+  EXPECT_EQ(terms(expansion, 0.0, kState, 4), terms(expected, 0.0, kState, 4));
 }
 
 }  // namespace
