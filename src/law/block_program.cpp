@@ -106,7 +106,8 @@ class Bundler {
     known_in_order_.push_back(lanes);
     for (int lane = 0; computes && lane < Block4::kLanes; ++lane) {
       const int slot = lanes[static_cast<std::size_t>(lane)];
-      if (slot < 0 || lanes_.is_constant(slot) || home(slot).block >= 0) continue;
+      if (slot < 0 || LaneReader::is_negative(slot) || lanes_.is_constant(slot)) continue;
+      if (home(slot).block >= 0) continue;
       home(slot) = {block, lane};
       at_home_.push_back(slot);
     }
@@ -130,7 +131,7 @@ class Bundler {
     set_ready(slot);
   }
 
-  /// Has these lanes in a block.
+  /// Has these lanes in a block; -1 where there are negatives among them that no operation takes in.
   int block(Lanes lanes) {
     lanes = LaneReader::spread(lanes);
     if (const auto known = known_.find(lanes); known != known_.end()) return known->second;
@@ -140,7 +141,7 @@ class Bundler {
       return result;
     }
     const int computed = compute(lanes);
-    return computed >= 0 ? computed : collect(lanes);
+    return computed >= 0 || LaneReader::has_negative(lanes) ? computed : collect(lanes);
   }
 
   /// The lanes from where they are, which is found or made.
@@ -183,7 +184,7 @@ class Bundler {
 
   /// The lanes by one operation on blocks, -1 if there is none, or none that pays.
   int compute(const Lanes& lanes) {
-    if (LaneReader::count_distinct(lanes) == 1) {
+    if (LaneReader::count_distinct(lanes) == 1 && !LaneReader::has_negative(lanes)) {
       if (is_ready(lanes[0])) return -1;
       if (const int reduced = reduce(lanes[0]); reduced >= 0) return reduced;
     }
@@ -201,7 +202,7 @@ class Bundler {
     instruction.a = operand(operation->a);
     if (has_two_operands(operation->kind)) instruction.b = operand(operation->b);
     // else it is as many instructions, and a collect
-    if (collects > operation->replaced) {
+    if (instruction.a < 0 || instruction.b < 0 || collects > operation->replaced) {
       undo_to(before);
       return -1;
     }

@@ -80,7 +80,12 @@ int LaneReader::count_distinct(const Lanes& lanes) {
   return count;
 }
 
+bool LaneReader::has_negative(const Lanes& lanes) {
+  return ranges::any_of(lanes, [](int slot) { return is_negative(slot); });
+}
+
 bool LaneReader::is_constant(int slot) const {
+  if (is_negative(slot)) return false;
   return slot >= program_.slot_count || is_constant_[static_cast<std::size_t>(slot)];
 }
 
@@ -135,8 +140,20 @@ int LaneReader::kind_of(int slot) const {
 
 double LaneReader::likeness(int a, int b) const {
   if (a == b) return 3.0;
+  if (is_negative(a)) return likeness_of_negative(a - kNegative, b);
+  if (is_negative(b)) return likeness_of_negative(b - kNegative, a);
   // of one kind, the nearer ones: components of one vector lie beside each other
   return kind_of(a) == kind_of(b) ? 1.0 + 1.0 / (1.0 + std::abs(a - b)) : 0.0;
+}
+
+double LaneReader::likeness_of_negative(int slot, int other) const {
+  if (is_negative(other)) return likeness(slot, other - kNegative);
+  const Instruction* i = instruction(other);
+  if (i == nullptr) return 0.0;
+  // beside c - y it is -0 - slot
+  if (i->opcode == Opcode::constant_minus || i->opcode == Opcode::negate) return 1.0 + 0.3 * likeness(slot, i->a);
+  if (i->opcode == Opcode::subtract) return 1.0 + 0.3 * likeness(slot, i->b);
+  return is_multiple(i->opcode) ? 0.8 : 0.0;
 }
 
 void LaneReader::align(Operation& operation, const Lanes& swappable) const {
@@ -162,7 +179,7 @@ auto LaneReader::operation(const Lanes& lanes) -> std::optional<Operation> {
   std::optional<Operation> result;
   if (any_lane(is_sum)) {
     result = sum(lanes);
-  } else if (any_lane(is_multiple)) {
+  } else if (any_lane(is_multiple) || has_negative(lanes)) {
     result = multiple(lanes);
   } else if (any_lane(is_product)) {
     result = product(lanes);
@@ -241,33 +258,61 @@ auto LaneReader::quotient(const Lanes& lanes) -> std::optional<Operation> {
   return result;
 }
 
+auto LaneReader::ways_to_sum(int slot) -> std::vector<Sum> {
+  const double zero = -0.0;  // which changes no number that it is added to
+  if (is_negative(slot)) return {{literal(zero), slot - kNegative, -1.0}};
+  const Instruction* i = instruction(slot);
+  if (i != nullptr) {
+    const int a = i->a, b = i->b;
+    switch (i->opcode) {
+      case Opcode::add:
+        return {{a, b, 1.0}, {b, a, 1.0}};
+      case Opcode::subtract:
+        return {{a, b, -1.0}, {negative_of(b), a, 1.0}};
+      case Opcode::add_constant:
+        return {{a, literal(i->constant.value), 1.0}};
+      case Opcode::constant_minus:
+        return {{literal(i->constant.value), a, -1.0}, {negative_of(a), literal(i->constant.value), 1.0}};
+      case Opcode::negate: {
+        const Instruction* of = instruction(a);
+        if (of == nullptr || of->opcode != Opcode::add) return {{literal(zero), a, -1.0}};
+        // -(p + q) = -p - q
+        return {{literal(zero), a, -1.0}, {negative_of(of->a), of->b, -1.0}, {negative_of(of->b), of->a, -1.0}};
+      }
+      default:
+        break;
+    }
+  }
+  return {{slot, literal(zero), 1.0}};
+}
+
 auto LaneReader::sum(const Lanes& lanes) -> std::optional<Operation> {
+  std::array<std::vector<Sum>, 4> ways;
+  for_each_lane(lanes, [&](std::size_t lane, int slot) { ways[lane] = ways_to_sum(slot); });
+  // the ways that are most like one of them
   Operation result{.kind = Kind::add};
-  Lanes swappable{-1, -1, -1, -1};
-  std::array<double, 4> signs{1.0, 1.0, 1.0, 1.0};
-  for_each_lane(lanes, [&](std::size_t lane, int slot) {
-    const Instruction* i = instruction(slot);
-    int &a = result.a[lane], &b = result.b[lane];
-    if (i != nullptr && i->opcode == Opcode::negate) {
-      a = literal(-0.0);
-      b = i->a;
-      signs[lane] = -1.0;
-      swappable[lane] = 0;
-      return;
+  double most = -1.0;
+  for (const std::vector<Sum>& models : ways)
+    for (const Sum& model : models) {
+      Operation each{.kind = Kind::add};
+      double total = 0.0;
+      for_each_lane(lanes, [&](std::size_t lane, int) {
+        double nearest = -1.0;
+        for (const Sum& way : ways[lane]) {
+          const double like = likeness(way.a, model.a) + likeness(way.b, model.b);
+          if (like <= nearest) continue;
+          nearest = like;
+          each.a[lane] = way.a;
+          each.b[lane] = way.b;
+          each.constant.lanes[static_cast<int>(lane)] = way.sign;
+        }
+        total += nearest;
+      });
+      if (total > most) {
+        most = total;
+        result = each;
+      }
     }
-    if (i == nullptr || !is_sum(i->opcode)) {
-      a = slot;
-      b = literal(-0.0);
-      return;
-    }
-    const bool is_rest = i->opcode == Opcode::constant_minus, is_more = i->opcode == Opcode::add_constant;
-    a = is_rest ? literal(i->constant.value) : i->a;
-    b = is_rest ? i->a : is_more ? literal(i->constant.value) : i->b;
-    if (is_rest || i->opcode == Opcode::subtract) signs[lane] = -1.0;
-    swappable[lane] = i->opcode == Opcode::add ? 1 : 0;
-  });
-  result.constant = Block4(signs[0], signs[1], signs[2], signs[3]);
-  align(result, swappable);
   return result;
 }
 
@@ -281,7 +326,8 @@ auto LaneReader::multiple(const Lanes& lanes) -> std::optional<Operation> {
   bool is_exact = true;
   for_each_lane(lanes, [&](std::size_t lane, int slot) {
     const Instruction* i = instruction(slot);
-    result.a[lane] = slot;
+    result.a[lane] = is_negative(slot) ? slot - kNegative : slot;
+    if (is_negative(slot)) factors[lane] = -1.0;
     if (i == nullptr || !is_multiple(i->opcode)) return;
     result.a[lane] = i->a;
     factors[lane] = i->opcode == Opcode::negate ? -1.0 : i->constant.value;

@@ -9,7 +9,8 @@
 
 namespace trajet::detail {
 
-/// Slots of a Program that are to lie beside each other, one a lane; -1: a spare lane.
+/// Slots of a Program that are to lie beside each other, one a lane; -1: a spare lane. Beside the Program's own slots
+/// there are constants that it has in none, and negatives: -x of a slot x, which its signs make cheap.
 using Lanes = std::array<int, 4>;
 
 /// Reads a Program lane by lane: whether one operation on blocks computes four slots, and of what.
@@ -40,6 +41,9 @@ class LaneReader {
   static Lanes spread(Lanes lanes);
   static int count_distinct(const Lanes& lanes);
 
+  /// A negative has no instruction and no place of its own.
+  static bool is_negative(int slot) { return slot >= kNegative; }
+  static bool has_negative(const Lanes& lanes);
   bool is_constant(int slot) const;
   bool are_constant(const Lanes& lanes) const;
   /// The values of constants, 0 in spare lanes.
@@ -52,12 +56,25 @@ class LaneReader {
   int producer(int slot) const { return producer_[static_cast<std::size_t>(slot)]; }
 
  private:
+  static constexpr int kNegative = 1 << 28;  // added to the slot
+  static int negative_of(int slot) { return slot + kNegative; }
+
+  /// A way to have a number as a sum: a + sign b.
+  struct Sum {
+    int a = -1;
+    int b = -1;
+    double sign = 1.0;
+  };
+
   const Instruction* instruction(int slot) const;
   /// A constant that the Program has in no slot.
   int literal(double value);
   /// What may stand in the lanes of one block: the same number for kinds of computations that can be made alike.
   int kind_of(int slot) const;
   double likeness(int a, int b) const;
+  /// How like a negative is to what may be anything.
+  double likeness_of_negative(int slot, int other) const;
+  std::vector<Sum> ways_to_sum(int slot);
 
   std::optional<Operation> product(const Lanes& lanes);
   std::optional<Operation> quotient(const Lanes& lanes);
