@@ -216,7 +216,7 @@ TEST(BlockProgram, a_length_that_vanishes_has_the_series_that_it_has_number_by_n
   const Program program = compile("[0, 0, -9.81] - 0.1*norm(v)*v");
   ASSERT_TRUE(works_in_blocks(program));
   std::vector<double> rest = kState;
-  for (std::size_t i : {3, 4, 5}) rest[i] = 0.0;
+  std::fill_n(rest.begin() + 3, 3, 0.0);
   ProgramExpansion in_blocks(program);
   ProgramExpansionT<Extended> by_numbers(program);
   EXPECT_LT(difference(terms(in_blocks, 0.0, rest, 12), terms(by_numbers, 0.0, rest, 12)), 1e-14);
