@@ -4,7 +4,8 @@
 #include "trajet/ode/solve.hpp"
 #include "work_precision.hpp"
 
-/// The smooth problems from a C++ lambda's law: everything inlined.
+/// The smooth problems from a C++ lambda's law: everything inlined. By a stepper that is used again, and by solve(),
+/// which makes one and keeps all Segments.
 namespace trajet::bench {
 namespace {
 
@@ -16,6 +17,12 @@ void add_law(const std::string& method, const StepOptions& options) {
   add_case({Benchmark<Problem>::kName, Contender::law, method}, [stepper] {
     const auto result = integrate(*stepper, Problem::start_time(), Problem::start(), Problem::end_time());
     return result.status == IntegrationStatus::finished ? error_at_end<Problem>(stepper->state()) : kFailed;
+  });
+  SolveOptions all;
+  static_cast<StepOptions&>(all) = options;
+  add_case({Benchmark<Problem>::kName, Contender::solve, method}, [all] {
+    const auto trajectory = solve<Method>(Problem{}, Problem::start_time(), Problem::start(), Problem::end_time(), all);
+    return trajectory.status == IntegrationStatus::finished ? error_at_end<Problem>(trajectory.end()) : kFailed;
   });
 }
 

@@ -14,7 +14,7 @@ namespace trajet::bench {
 namespace {
 
 /// Of the contenders, in their order.
-constexpr const char* kNames[] = {"law", "scene", "odeint", "gsl", "sundials", "bullet", "ode"};
+constexpr const char* kNames[] = {"law", "solve", "scene", "odeint", "gsl", "sundials", "bullet", "ode"};
 static_assert(std::size(kNames) == std::size(kContenders));
 
 /// The tables begin at an accuracy of 1e-2, which the engines reach.
@@ -72,15 +72,15 @@ std::string entry(const Measurement* m) {
   return text;
 }
 
-/// Our time over the best peer's, or a dash.
-std::string ratio(const Measurement* ours, const Measurement* peer) {
-  if (ours == nullptr || peer == nullptr) return "-";
+/// One time over another, or a dash.
+std::string ratio(const Measurement* a, const Measurement* b) {
+  if (a == nullptr || b == nullptr) return "-";
   char text[16];
-  std::snprintf(text, sizeof text, "%.2f", ours->microseconds / peer->microseconds);
+  std::snprintf(text, sizeof text, "%.2f", a->microseconds / b->microseconds);
   return text;
 }
 
-/// The fastest run of each contender at each accuracy, and ours over the best of all peers.
+/// The fastest run of each contender at each accuracy; ours over the best of all peers, and over the law's stepper.
 void print_table(const std::vector<Measurement>& all, const std::string& problem) {
   std::vector<Contender> present;
   for (const Contender contender : kContenders)
@@ -89,24 +89,27 @@ void print_table(const std::vector<Measurement>& all, const std::string& problem
               problem.c_str());
   std::printf("%-8s", "accuracy");
   for (const Contender contender : present) std::printf(" | %-31s", kNames[static_cast<int>(contender)]);
-  std::printf(" | law/  | scene/\n%-8s", "");
+  std::printf(" | law/  | scene/ | solve/ | scene/\n%-8s", "");
   for (std::size_t i = 0; i < present.size(); ++i) std::printf(" | %-31s", "");
-  std::printf(" | peers | peers\n");
+  std::printf(" | peers | peers  | law    | law\n");
   for (int digits = kLoosestDigits; digits <= 14; digits += 2) {
     const double accuracy = std::pow(10.0, -digits);
-    const Measurement *law = nullptr, *scene = nullptr, *best_peer = nullptr;
+    const Measurement *law = nullptr, *solve = nullptr, *scene = nullptr, *best_peer = nullptr;
     std::printf("%-8.0e", accuracy);
     for (const Contender contender : present) {
       const Measurement* best = fastest(all, problem, contender, accuracy);
       std::printf(" | %-31s", entry(best).c_str());
       if (contender == Contender::law)
         law = best;
+      else if (contender == Contender::solve)
+        solve = best;
       else if (contender == Contender::scene)
         scene = best;
       else if (best != nullptr && (best_peer == nullptr || best->microseconds < best_peer->microseconds))
         best_peer = best;
     }
-    std::printf(" | %5s | %5s\n", ratio(law, best_peer).c_str(), ratio(scene, best_peer).c_str());
+    std::printf(" | %5s | %6s | %6s | %6s\n", ratio(law, best_peer).c_str(), ratio(scene, best_peer).c_str(),
+                ratio(solve, law).c_str(), ratio(scene, law).c_str());
   }
 }
 

@@ -8,9 +8,9 @@
 namespace trajet::bench {
 
 /// Who did the work of a case. The tables set the best of each beside the others.
-enum class Contender { law, scene, odeint, gsl, sundials, bullet, ode };
-inline constexpr Contender kContenders[] = {Contender::law,      Contender::scene,  Contender::odeint, Contender::gsl,
-                                            Contender::sundials, Contender::bullet, Contender::ode};
+enum class Contender { law, solve, scene, odeint, gsl, sundials, bullet, ode };
+inline constexpr Contender kContenders[] = {Contender::law, Contender::solve,    Contender::scene,  Contender::odeint,
+                                            Contender::gsl, Contender::sundials, Contender::bullet, Contender::ode};
 
 /// An error that no run which came to its end has.
 inline constexpr double kFailed = 1e100;

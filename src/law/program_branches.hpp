@@ -238,6 +238,7 @@ void ProgramExpansionT<T>::force(Branch& branch, double sign, double border) {
 
 template <class T>
 void ProgramExpansionT<T>::remember_end(double s) {
+  if (is_in_blocks_) unpack_state();
   has_end_ = true;
   end_time_ = start_ + s * row_direction_;
   for (int i = 0; i < dimension(); ++i) {

@@ -5,6 +5,7 @@
 #include <type_traits>
 #include <utility>
 
+#include "block_rows.hpp"
 #include "hidden_poles.hpp"
 #include "program_branches.hpp"
 #include "recurrence_step.hpp"
@@ -39,7 +40,13 @@ ProgramExpansionT<T>::ProgramExpansionT(Program program)
     branches_.push_back(*branch);
     branches_.back().is_by_time = branches_by_time(instruction, time_slots);
   }
+  if constexpr (std::is_same_v<T, double>) {
+    if (auto blocks = detail::bundle(program_)) blocks_ = std::make_unique<detail::BlockRows>(std::move(*blocks));
+  }
 }
+
+template <class T>
+ProgramExpansionT<T>::~ProgramExpansionT() = default;
 
 template <class T>
 auto ProgramExpansionT<T>::find_branch(const Instruction& instruction, int own, bool hides_pole)
@@ -111,6 +118,7 @@ void ProgramExpansionT<T>::set_constant(std::int32_t slot, double value) {
   for (Program::Constant& constant : program_.constants)
     if (constant.slot == slot) constant.value = value;
   if (stride_ > 0) row(slot)[0] = static_cast<T>(value);
+  if (blocks_) blocks_->set_constant(slot, value);
 }
 
 template <class T>
@@ -133,6 +141,9 @@ void ProgramExpansionT<T>::place_rows() {
       step.own[static_cast<std::size_t>(k)] = row(own++);
     steps_.push_back(step);
   }
+  if constexpr (std::is_same_v<T, double>) {
+    if (blocks_) blocks_->place_series(stride_, [this](int slot) { return row(slot); });
+  }
 }
 
 template <class T>
@@ -146,8 +157,13 @@ void ProgramExpansionT<T>::expand(double t, const T* q, int order, T* coefficien
   const int dim = dimension();
   row(0)[0] = t;
   row(0)[1] = row_direction_;
+  is_in_blocks_ = expand_in_blocks(q, order, coefficients);
+  if (is_in_blocks_) return;
   for (int i = 0; i < dim; ++i) row(1 + i)[0] = q[i];
-  run_all(order);
+  for_each_order(order, [&](auto n) {
+    run(n);
+    return true;
+  });
   for (int i = 0; i < dim; ++i) {
     const T* series = row(1 + i);
     double power = 1.0;  // (ds/dt)^k
@@ -156,41 +172,91 @@ void ProgramExpansionT<T>::expand(double t, const T* q, int order, T* coefficien
 }
 
 template <class T>
-void ProgramExpansionT<T>::run_all(int order) {
+template <class Run>
+bool ProgramExpansionT<T>::for_each_order(int order, Run&& run) {
   int n = 0;
+  bool goes_on = true;
   if constexpr (std::is_same_v<T, double>) {
     [&]<int... N>(std::integer_sequence<int, N...>) {
       // stops at the order asked for: && ends the chain
-      static_cast<void>(((N < order && (run(std::integral_constant<int, N>()), n = N + 1, true)) && ...));
+      static_cast<void>(((N < order && (n = N + 1, goes_on = run(std::integral_constant<int, N>()))) && ...));
     }
     (std::make_integer_sequence<int, kUnrolledOrders>());
   }
-  for (; n < order; ++n) run(n);
+  for (; goes_on && n < order; ++n) goes_on = run(n);
+  return goes_on;
+}
+
+template <class T>
+template <class Order>
+TRAJET_INLINE void ProgramExpansionT<T>::run_step(const Step& step, Order n) {
+  if (step.branch >= 0 && detail::may_hide_pole(step.opcode)) {
+    Branch& pole = branches_[static_cast<std::size_t>(step.branch)];
+    decide_sign(pole, n);
+    if (pole.starts_at_zero) {
+      step.result[n] = std::numeric_limits<T>::quiet_NaN();  // no series begins at a pole
+      return;
+    }
+  }
+  if (detail::common_step(step, n)) return;
+  if (step.branch >= 0) {
+    run_branch(step, branches_[static_cast<std::size_t>(step.branch)], n);
+  } else {
+    detail::smooth_step(step, n);
+  }
 }
 
 template <class T>
 template <class Order>
 void ProgramExpansionT<T>::run(Order n) {
-  for (const Step& step : steps_) {
-    if (step.branch >= 0 && detail::may_hide_pole(step.opcode)) {
-      Branch& pole = branches_[static_cast<std::size_t>(step.branch)];
-      decide_sign(pole, n);
-      if (pole.starts_at_zero) {
-        step.result[n] = std::numeric_limits<T>::quiet_NaN();  // no series begins at a pole
-        continue;
-      }
-    }
-    if (detail::common_step(step, n)) continue;
-    if (step.branch >= 0) {
-      run_branch(step, branches_[static_cast<std::size_t>(step.branch)], n);
-    } else {
-      detail::smooth_step(step, n);
-    }
-  }
+  for (const Step& step : steps_) run_step(step, n);
   // dq/ds = dq/dt / (ds/dt), ds/dt = +-1:  q[n+1] = (ds/dt) rate[n] / (n+1)
   const T factor = row_direction_ * (T(1.0) / (n + 1));
   const std::int32_t* rate = program_.outputs.data();
   for (int i = 0; i < dimension(); ++i) row(1 + i)[n + 1] = factor * row(rate[i])[n];
+}
+
+template <class T>
+template <class Order>
+bool ProgramExpansionT<T>::run_blocks(Order n) {
+  const auto scalar = [this, n](int index) { run_step(steps_[static_cast<std::size_t>(index)], n); };
+  const T factor = row_direction_ * (T(1.0) / (n + 1));
+  const bool is_regular = blocks_->run(n, factor, scalar);
+  for (const int i : blocks_->program().single)
+    row(1 + i)[n + 1] = factor * row(program_.outputs[static_cast<std::size_t>(i)])[n];
+  return is_regular;
+}
+
+template <class T>
+bool ProgramExpansionT<T>::expand_in_blocks(const T* q, int order, T* coefficients) {
+  if constexpr (std::is_same_v<T, double>) {
+    if (!blocks_) return false;
+    for (std::size_t i = 0; i < branch_of_.size(); ++i) {
+      if (branch_of_[i] < 0 || program_.instructions[i].opcode != Opcode::norm) continue;
+      Branch& branch = branches_[static_cast<std::size_t>(branch_of_[i])];
+      if (branch.forced_sign) return false;  // it starts where it vanishes
+      branch.sign = 1.0;
+      branch.starts_at_zero = false;
+    }
+    blocks_->set_state(q);
+    for (const int i : blocks_->program().single) row(1 + i)[0] = q[i];
+    if (!for_each_order(order, [&](auto n) { return run_blocks(n); })) return false;
+    blocks_->write_state(order, dimension(), row_direction_, coefficients);
+    for (const int i : blocks_->program().single) {
+      double power = 1.0;
+      for (int k = 0; k <= order; ++k, power *= row_direction_)
+        coefficients[k * dimension() + i] = power * row(1 + i)[k];
+    }
+    return true;
+  }
+  return false;
+}
+
+template <class T>
+void ProgramExpansionT<T>::unpack_state() {
+  if constexpr (std::is_same_v<T, double>) {
+    blocks_->unpack_state(order_, [this](int component) { return row(1 + component); });
+  }
 }
 
 template class ProgramExpansionT<double>;

@@ -1,18 +1,22 @@
 #include "make_runge_kutta.hpp"
 
+#include <vector>
+
 #include "padded_runge_kutta.hpp"
 #include "trajet/ode/runge_kutta.hpp"
 #include "trajet/ode/system_rate.hpp"
+#include "trajet/portable.hpp"
 #include "wrapped_stepper.hpp"
 
 namespace trajet::detail {
 
 template <class Method>
 std::unique_ptr<AnyStepper> make_runge_kutta(System& system, const StepOptions& options) {
-  constexpr int kSmall = 8;  // a point has six components
-  if (system.dimension() <= kSmall) {
-    return std::make_unique<WrappedStepper<PaddedRungeKutta<Method, kSmall>>>(system, options);
-  }
+  constexpr int kPoint = 8, kSolid = 16;  // r, v; and orientation, angular velocity, in blocks of four
+  const std::vector<int> lanes = system.block_border().lanes;
+  const int width = lanes.empty() ? system.dimension() : 1 + *ranges::max_element(lanes);
+  if (width <= kPoint) return std::make_unique<WrappedStepper<PaddedRungeKutta<Method, kPoint>>>(system, options);
+  if (width <= kSolid) return std::make_unique<WrappedStepper<PaddedRungeKutta<Method, kSolid>>>(system, options);
   return std::make_unique<WrappedStepper<RungeKutta<Method, SystemRate, Eigen::Dynamic>>>(SystemRate(system), options);
 }
 

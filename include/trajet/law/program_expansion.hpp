@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -11,10 +12,15 @@
 
 namespace trajet {
 
+namespace detail {
+class BlockRows;
+}
+
 /// Taylor expansion of the solutions of dq/dt = program(t, q), whose outputs are dq/dt of its inputs behind t.
 ///
 /// All instructions compute their n-th coefficient from those below, then the state its (n+1)-th, for n = 0, 1, …: an
-/// expansion of order N costs O(N^2) per instruction.
+/// expansion of order N costs O(N^2) per instruction. In double precision, what is alike in neighbouring components is
+/// expanded together, in the lanes of blocks (src/law/block_program.hpp).
 ///
 /// A comparison, abs, min, max, sign, floor, a table, and a length that reaches zero have a series only as long as they
 /// stay on the branch taken at the start. An expansion therefore holds only up to `duration_until_branch`. Where the
@@ -28,6 +34,7 @@ class ProgramExpansionT {
   static constexpr int kMaxOrder = kMaxPolynomialDegree;
 
   explicit ProgramExpansionT(Program program);
+  ~ProgramExpansionT();
   ProgramExpansionT(const ProgramExpansionT&) = delete;  // its steps point to its rows
   ProgramExpansionT& operator=(const ProgramExpansionT&) = delete;
 
@@ -84,10 +91,20 @@ class ProgramExpansionT {
   void reserve(int order);
   /// Where the rows of each instruction are, after they have moved.
   void place_rows();
-  /// The n-th coefficient of every instruction and the next one of the state; `Order` is an int or a constant.
+  /// Calls run(n) for n = 0 … order - 1, an int or a constant, as long as it returns true.
+  template <class Run>
+  static bool for_each_order(int order, Run&& run);
+  /// The n-th coefficient of every instruction and the next one of the state.
   template <class Order>
   void run(Order n);
-  void run_all(int order);
+  template <class Order>
+  void run_step(const Step& step, Order n);
+  /// The same in blocks. At order 0, false where a length vanishes, whose series is the instructions' business.
+  template <class Order>
+  bool run_blocks(Order n);
+  bool expand_in_blocks(const T* q, int order, T* coefficients);
+  /// The coefficients of the state as the last expansion left them in blocks, in its rows.
+  void unpack_state();
   void run_branch(const Step& step, Branch& branch, int n);
   double decide_sign(Branch& branch, int n);
   void decide_interval(const Step& step, Branch& branch, T x);
@@ -103,7 +120,9 @@ class ProgramExpansionT {
   Program program_;
   std::vector<Step> steps_;  // one for each instruction
   std::vector<Branch> branches_;
-  std::vector<int> branch_of_;  // for each instruction: an index of branches_, or -1
+  std::vector<int> branch_of_;                 // for each instruction: an index of branches_, or -1
+  std::unique_ptr<detail::BlockRows> blocks_;  // none where they do not pay, or for Extended
+  bool is_in_blocks_ = false;                  // the last expansion
   int row_count_ = 0;
   int stride_ = 0;
   /// Taylor coefficients in s = row_direction (time - start): slots of the program, then scratch; (row_count x stride)

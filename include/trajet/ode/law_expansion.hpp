@@ -99,7 +99,7 @@ class LawExpansion {
   }
 
  private:
-  static constexpr int kFirstCapacity = 64;
+  static constexpr int kFirstCapacity = 24;  // slots for a small law; others get more at the first expansion
 
   void start(double t, const NumberState& q, T* coefficients) {
     tape_.branches().clear();

@@ -195,7 +195,10 @@ class AdaptiveRungeKutta : public RungeKuttaBase<Method, Rate, Dim> {
   }
 
   void read_tolerances() {
-    atol_.fill(this->state().size(), [this](Eigen::Index i) { return absolute_tolerance(options_, i); });
+    atol_.fill(this->state().size(), [this](Eigen::Index i) {
+      if constexpr (requires { this->rate_.component(i); }) i = this->rate_.component(i);
+      return absolute_tolerance(options_, i);
+    });
   }
 
   StepOptions options_;

@@ -22,7 +22,8 @@ namespace trajet::detail {
 /// decision.
 ///
 /// The law is inlined into every stage; loops over stages are unrolled; zero coefficients leave no trace. A packed
-/// state goes through the stages in registers.
+/// state goes through the stages in registers: component by component to a law that is written so, as one block to a
+/// rate that has `block(t, q, dq)`.
 template <class Method, int Dim>
 class RungeKuttaStep {
   static constexpr auto& kTableau = Method::kTableau;
@@ -82,7 +83,9 @@ class RungeKuttaStep {
   template <bool WithStartRate, bool WithEndRate, class Rate>
   TRAJET_INLINE void compute(double t1, Rate& rate) {
     t1_ = t1;
-    if constexpr (kIsPacked<Dim>) {
+    if constexpr (kTakesBlocks<Rate>) {
+      compute_block_stages<WithStartRate, WithEndRate>(rate);
+    } else if constexpr (kIsPacked<Dim>) {
       State q, newest;  // not members: nothing need be stored
       compute_stages<WithStartRate, WithEndRate>(rate, q, newest);
     } else {
@@ -267,13 +270,19 @@ class RungeKuttaStep {
   }
 
   template <class Rate>
+  static constexpr bool kTakesBlocks = requires(Rate& rate, const Block& q, Block& k) {
+    rate.block(0.0, q, k);
+  };
+
+  template <class Rate>
   TRAJET_INLINE static void evaluate(Rate& rate, double t, const State& q, Vector& k) {
-    if constexpr (kIsPacked<Dim>) {
-      State components;
-      rate(t, q, components);
-      k.assign(components);
+    if constexpr (kTakesBlocks<Rate>) {
+      Vector packed;
+      packed.assign(q);
+      rate.block(t, packed[0], k[0]);
     } else {
-      rate(t, q, k.components());
+      State newest;
+      evaluate(rate, t, q, k, newest);
     }
   }
 
@@ -303,6 +312,27 @@ class RungeKuttaStep {
     q1_.assign(q);
     for_each_block([&](Eigen::Index b) __attribute__((always_inline)) { Vector::write(q1_[b], end_.data(), b); });
     if constexpr (WithEndRate) evaluate(rate, t1_, q, k_[kLast], newest);
+  }
+
+  /// The same where the rate takes blocks.
+  template <bool WithStartRate, bool WithEndRate, class Rate>
+  TRAJET_INLINE void compute_block_stages(Rate& rate) {
+    if constexpr (WithStartRate) rate.block(t0_, q0_[0], k_[0][0]);
+    [&]<std::size_t... S>(std::index_sequence<S...>) __attribute__((always_inline)) {
+      (compute_block_stage<S + 1, true>(rate), ...);
+    }
+    (std::make_index_sequence<kStages - 2>());
+    compute_block_stage<kLast, WithEndRate>(rate);
+    Vector::write(q1_[0], end_.data(), 0);
+  }
+  template <std::size_t S, bool WithRate, class Rate>
+  TRAJET_INLINE void compute_block_stage(Rate& rate) {
+    const double h = t1_ - t0_;
+    Block sum{};
+    add_weighted<StageWeights<S>, S - 1>(h, 0, sum);
+    const Block q = (q0_[0] + sum) + (h * kTableau.a[S][S - 1].value()) * k_[S - 1][0];
+    if constexpr (S == kLast) q1_[0] = q;
+    if constexpr (WithRate) rate.block(S == kLast ? t1_ : t0_ + kTableau.c[S].value() * h, q, k_[S][0]);
   }
 
   template <std::size_t S, class Rate>

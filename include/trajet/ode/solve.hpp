@@ -59,9 +59,10 @@ auto solve(Law law, double t0, const Eigen::MatrixBase<Vector>& q0, double t_end
   Trajectory<kDim> trajectory;
   trajectory.start_time = t0;
   trajectory.start = q0;
-  const auto keep = [&trajectory](auto& s) {
-    trajectory.segments.emplace_back();
-    s.fill_segment(trajectory.segments.back());
+  Segment<kDim> segment;
+  const auto keep = [&](auto& s) {
+    s.fill_segment(segment);
+    trajectory.segments.push_back(segment);
   };
   trajectory.status = integrate(stepper, t0, trajectory.start, t_end, options.max_steps, keep).status;
   trajectory.statistics = stepper.statistics();

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <vector>
 
+#include "trajet/math/block4.hpp"
 #include "trajet/ode/structure.hpp"
 #include "trajet/portable.hpp"
 
@@ -9,6 +11,15 @@ namespace trajet {
 
 /// A law can change its branch this often at one instant before it counts as undecided there.
 inline constexpr int kMaxBranchChanges = 8;
+
+/// Where a System takes a state, and leaves its rate, in blocks of four lanes: a stepper whose state is in vector
+/// registers needs one store and a load or two to cross over. There is room for a multiple of four blocks, 64 bytes
+/// aligned; what lies in lanes of no component is not defined.
+struct BlockBorder {
+  std::vector<int> lanes{};  ///< for each component of the state; empty: the system has no such border
+  Block4* state = nullptr;
+  const Block4* rate = nullptr;
+};
 
 /// The problem dq/dt = g(q, t) as a run-time object: what a compiled scene hands to the integrators.
 ///
@@ -21,6 +32,11 @@ class System {
 
   /// dq = g(q, t). `q` and `dq` hold `dimension()` numbers and do not overlap.
   virtual void rate(double t, const double* q, double* dq) = 0;
+
+  /// The border over which evaluate_blocks works; it stays as it is.
+  virtual BlockBorder block_border() { return {}; }
+  /// rate = g(state, t) at the border.
+  virtual void evaluate_blocks(double /*t*/) {}
 
   /// The exact derivatives of g at (t, q): dg_dq(i, j) = d g_i / d q_j, (dimension x dimension), column-major, and
   /// dg_dt(i) = d g_i / dt. What has no derivative gives one of its one-sided derivatives or zero.

@@ -14,6 +14,7 @@
 #include "trajet/ode/law_expansion.hpp"
 #include "trajet/ode/runge_kutta.hpp"
 #include "trajet/ode/segment.hpp"
+#include "trajet/ode/series_sums.hpp"
 #include "trajet/ode/step_control.hpp"
 #include "trajet/ode/stepper.hpp"
 #include "trajet/ode/system.hpp"
@@ -74,7 +75,6 @@ class TaylorStepper {
     inverse_order_less_one_ = 1.0 / (order_ - 1);
     segment_.resize(expansion_.dimension(), order_);
     if constexpr (kIsExtended) series_.resize(expansion_.dimension(), order_ + 1);
-    inverse_tolerance_.resize(expansion_.dimension());
   }
 
   void start(double t, const State& q) {
@@ -125,15 +125,10 @@ class TaylorStepper {
       return;
     }
     segment = segment_;
+    // the last term bounds the first one left out; each of the others is rounded, in the precision of the state
+    constexpr double kEpsilon = static_cast<double>(std::numeric_limits<Number>::epsilon());
     const double h = std::abs(segment_.duration());
-    for (int i = 0; i < segment_.dimension(); ++i) {
-      // the last term bounds the first one left out; each of the others is rounded, in the precision of the state
-      double magnitude = 0.0;
-      for (int k = order_; k >= 0; --k) magnitude = magnitude * h + std::abs(segment_.coefficients()(i, k));
-      const double last_term = exact_ ? 0.0 : std::abs(segment_.coefficients()(i, order_)) * std::pow(h, order_);
-      constexpr double kEpsilon = static_cast<double>(std::numeric_limits<Number>::epsilon());
-      segment.error_bound()[i] = last_term + 2.0 * kEpsilon * magnitude;
-    }
+    detail::bound_errors(segment_.coefficients(), h, exact_ ? 0.0 : 1.0, 2.0 * kEpsilon, segment.error_bound());
   }
 
   /// Replaces the state.
@@ -168,14 +163,6 @@ class TaylorStepper {
   static constexpr double kBlindStep = 1.0 / 64.0;
   static constexpr double kLogZero = -1023.0;  // what rough_log2 makes of zero
 
-  /// max_i |c_i[k]| / (atol + rtol |q_i|)
-  double weighted_coefficient(int k) const {
-    double largest = 0.0;
-    for (int i = 0; i < segment_.dimension(); ++i)
-      largest = std::max(largest, std::abs(segment_.coefficients()(i, k)) * inverse_tolerance_[i]);
-    return largest;
-  }
-
   /// The step of a polynomial: all that remains, unless there is none because the law is not finite here.
   double whole_way(double remaining) const {
     return segment_.coefficients().allFinite() ? remaining : std::numeric_limits<double>::quiet_NaN();
@@ -183,16 +170,11 @@ class TaylorStepper {
 
   /// `remaining`, `longest_blind` > 0, s: no step is longer, nor one of a series that does not tell.
   double step_within_tolerance(double remaining, double longest_blind) {
-    double finite = 0.0;  // becomes not-a-number with a rate, or a last term, that is not finite
-    for (int i = 0; i < segment_.dimension(); ++i) {
-      inverse_tolerance_[i] =
-          1.0 / (absolute_tolerance(options_, i) + options_.rtol * std::abs(segment_.coefficients()(i, 0)));
-      finite += 0.0 * segment_.coefficients()(i, 1) + 0.0 * segment_.coefficients()(i, order_);
-    }
-    if (finite != 0.0) return std::numeric_limits<double>::quiet_NaN();
+    const detail::TermSizes sizes = detail::term_sizes(segment_.coefficients(), options_);
+    if (!sizes.is_finite) return std::numeric_limits<double>::quiet_NaN();
     // h = min over the last two orders k of e_k^(-1/k), where e_k is the weighted coefficient
-    const double log_last = detail::rough_log2(weighted_coefficient(order_));
-    const double log_last_but_one = detail::rough_log2(weighted_coefficient(order_ - 1));
+    const double log_last = detail::rough_log2(sizes.last);
+    const double log_last_but_one = detail::rough_log2(sizes.last_but_one);
     double log_step = -std::max(log_last * inverse_order_, log_last_but_one * inverse_order_less_one_);
     // exp(-0.7 / (p - 1)) halves the last terms, so that those left out add up to less than the tolerance too
     log_step -= 0.7 * std::numbers::log2e * inverse_order_less_one_;
@@ -200,8 +182,7 @@ class TaylorStepper {
     // ones have risen to it, what follows rises further, as before a pulse: then no step beyond the radius of
     // convergence, rho = (e_m / e_p)^(1 / (p - m)).
     const int middle = order_ / 2;
-    const double log_middle =
-        detail::rough_log2(std::max(weighted_coefficient(middle), weighted_coefficient(middle - 1)));
+    const double log_middle = detail::rough_log2(sizes.middle);
     if (log_middle + middle * log_step < 0.0)
       log_step = std::min(log_step, (log_middle - std::max(log_last, log_last_but_one)) / (order_ - middle));
     double step = detail::rough_exp2(std::clamp(log_step, -900.0, 900.0));
@@ -227,25 +208,18 @@ class TaylorStepper {
   }
 
   /// q(t0 + tau), where what rounding takes from the sum of q and its change waits for the next step: over many steps
-  /// the state's own rounding does not add up, only that of its changes.
-  void move_state(double tau) {
-    const auto& c = series();
-    q_ = c.col(order_);
-    for (int k = order_ - 1; k >= 1; --k) q_ = q_ * Number(tau) + c.col(k);
-    for (int i = 0; i < segment_.dimension(); ++i) {
-      const Number change = q_[i] * tau + remainder_[i];
-      q_[i] = c(i, 0) + change;
-      remainder_[i] = change - (q_[i] - c(i, 0));
-    }
+  /// the state's own rounding does not add up, only that of its changes. Returns whether it is finite.
+  bool move_state(double tau) {
+    const bool is_finite = detail::sum_series<Number>(series(), tau, q_, remainder_);
     if constexpr (kIsExtended) rounded_ = q_.template cast<double>();
+    return is_finite;
   }
 
   StepStatus accept(double t_limit, double step) {
     const double t0 = t_;
     t_ = step == t_limit - t0 ? t_limit : t0 + step;
     segment_.set_interval(t0, t_);
-    move_state(t_ - t0);
-    if (!q_.allFinite()) {
+    if (!move_state(t_ - t0)) {
       t_ = t0;
       set_state(State(segment_.coefficients().col(0)));
       return StepStatus::not_finite;
@@ -295,7 +269,6 @@ class TaylorStepper {
   NumberState remainder_;  // the state is q_ + remainder_
   State rounded_;          // q_ in double, where that is another type
   Series series_;          // the coefficients of segment_, likewise
-  State inverse_tolerance_;
   Segment<kDimension> segment_;
   std::optional<Fallback> runge_kutta_;
   StepStatistics statistics_;

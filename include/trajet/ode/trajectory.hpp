@@ -1,13 +1,12 @@
 #pragma once
 
-#include <algorithm>
-#include <cassert>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "trajet/ode/integrate.hpp"
 #include "trajet/ode/segment.hpp"
+#include "trajet/ode/segment_list.hpp"
 
 namespace trajet {
 
@@ -18,13 +17,13 @@ struct Trajectory {
 
   double start_time = 0.0;
   State start;
-  std::vector<Segment<Dim>> segments;
+  SegmentList<Dim> segments;
   IntegrationStatus status = IntegrationStatus::finished;
   StepStatistics statistics;
   std::vector<std::string> warnings;
 
   /// How far the solution goes; the end asked for if `status` is `finished`.
-  double end_time() const { return segments.empty() ? start_time : segments.back().t1(); }
+  double end_time() const { return segments.empty() ? start_time : segments.end_time(); }
 
   /// The state at the end.
   State end() const { return state(end_time()); }
@@ -35,10 +34,7 @@ struct Trajectory {
     if (!((t - start_time) * direction >= 0.0 && (end_time() - t) * direction >= 0.0))
       throw std::out_of_range("the time lies outside the trajectory");
     if (segments.empty()) return start;
-    const auto ends_before = [direction](const Segment<Dim>& segment, double time) {
-      return (time - segment.t1()) * direction > 0.0;
-    };
-    return std::lower_bound(segments.begin(), segments.end(), t, ends_before)->state(t);
+    return segments[segments.find(t, direction)].state(t);
   }
 };
 

@@ -8,6 +8,7 @@
 #include "trajet/law/program.hpp"
 #include "trajet/law/program_expansion.hpp"
 #include "trajet/law/program_jacobian.hpp"
+#include "trajet/law/rate_evaluator.hpp"
 #include "trajet/ode/system.hpp"
 #include "trajet/portable.hpp"
 
@@ -41,6 +42,11 @@ class ProgramSystem : public System {
     if (jacobian_) jacobian_->set_constant(slot, value);
   }
   void rate(double t, const double* q, double* dq) override { evaluator_(within(t), q, dq); }
+  BlockBorder block_border() override {
+    if (evaluator_.lanes().empty()) return {};
+    return {evaluator_.lanes(), evaluator_.state(), evaluator_.rate()};
+  }
+  void evaluate_blocks(double t) override { evaluator_.evaluate_blocks(within(t)); }
   void jacobian(double t, const double* q, double* dg_dq, double* dg_dt) override {
     if (!jacobian_) jacobian_.emplace(expansion_.program());
     (*jacobian_)(within(t), q, dg_dq, dg_dt);
@@ -77,7 +83,7 @@ class ProgramSystem : public System {
   ProgramExpansion expansion_;
   std::optional<ProgramExpansionT<Extended>> extended_;  // made when first asked for
   bool extended_was_last_ = false;
-  Evaluator<double> evaluator_;
+  RateEvaluator evaluator_;
   std::optional<ProgramJacobian> jacobian_;  // made when first asked for: most methods never do
 };
 
