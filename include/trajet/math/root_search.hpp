@@ -101,7 +101,8 @@ double refine_root(double a, double value_a, double b, double value_b, Evaluate&
     }
     // t' = t - f(t) / f'(t)
     double next = t - value / rate;
-    if (next == t) return t;
+    // an infinite rate, as next to a corner, tells nothing of where the root is
+    if (next == t && std::isfinite(rate)) return t;
     if (step % 3 == 2) {
       const double width = std::abs(b - a);
       if (width > 0.5 * last_width) next = 0.5 * a + 0.5 * b;
