@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "trajet/event/law_branches.hpp"
-#include "trajet/ode/step_control.hpp"
 #include "trajet/portable.hpp"
 
 // Directions that a law reads, x / |x|, where x vanishes: dry friction that holds what it has stopped.
@@ -62,8 +61,10 @@ std::optional<LawBranches::Approach> LawBranches::approach(double t, const doubl
     const double duration = size / closing;
     evaluate_values(t, q);
     constexpr double kErrors = 16.0;
+    constexpr double kFewTimes = 128.0;  // roundings of the time: no step is as short
     const double off = (derivative.leftCols(rate.size()).cwiseAbs() * error).norm();
-    const bool is_there = is_near_zero(each) || duration < 4.0 * smallest_step(t) || size < kErrors * off;
+    const bool is_there =
+        is_near_zero(each) || duration < kFewTimes * kUnitRoundoff * std::abs(t) || size < kErrors * off;
     if (!first || duration < first->duration) first = Approach{each, duration, is_there};
   }
   return first;

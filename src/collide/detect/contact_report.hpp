@@ -90,7 +90,13 @@ ContactResult report(const F& gap, const GapContact& found, const MovingBall& ba
                     ? ball.to
                     : std::clamp(time, std::min(ball.from, ball.to), std::max(ball.from, ball.to));
   result.position = path.value(contact.tau);
-  const SurfacePoint surface = thin ? thin->surface : place(result.position);
+  std::optional<SurfacePoint> seen;
+  if (thin) {
+    seen = thin->surface;
+  } else if (is_solid && contact.status == ContactStatus::hit && contact.side_before > 0) {
+    seen = surface_before(gap, contact, path, depth(), place);
+  }
+  const SurfacePoint surface = seen ? *seen : place(result.position);
   result.point = surface.point;
   result.normal = contact.side_before < 0 ? Vector3(-surface.normal) : surface.normal;
   result.side_before = contact.side_before;

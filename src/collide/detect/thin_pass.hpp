@@ -71,4 +71,18 @@ std::optional<ThinEntry> thin_entry(const F& gap, const GapContact& touch, const
   return ThinEntry{at_surface, entry, rate};
 }
 
+/// Of a hit of a solid so thin that the place of the hit, by its rounding, may be nearer to its other side: where the
+/// path comes to it.
+template <EnclosedFunction F, class Place>
+std::optional<SurfacePoint> surface_before(const F& gap, const GapContact& hit, const PointPath& path, double depth,
+                                           Place&& place) {
+  constexpr double kThin = 64.0;
+  if (!(depth <= kThin * gap.at(hit.tau).tolerance)) return std::nullopt;
+  const double forward = gap.end() < gap.begin() ? -1.0 : 1.0;
+  const double step = forward * std::max(hit.root_error, 4.0 * kUnitRoundoff * std::abs(path.t0() + hit.tau));
+  const std::optional<double> before = clear_time(gap, hit.tau, -step);
+  if (!before || !(gap.at(*before).jet.value > 0.0)) return std::nullopt;
+  return place(path.value(*before));
+}
+
 }  // namespace trajet::detail
