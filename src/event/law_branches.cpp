@@ -38,6 +38,7 @@ LawBranches::Sliding::Sliding(std::vector<SlidingBorder> along, SlidingLaw their
       inputs(read_components(law.shares)),
       rate(law.law),
       residuals(law.residuals),
+      holds(law.holds),
       rate_jets(law.law),
       shares(law.shares),
       share_values(borders.size()) {}
@@ -52,7 +53,9 @@ LawBranches::LawBranches(const Program& law)
       rate_(pinned_.law.outputs.size()),
       state_(static_cast<std::size_t>(law.input_count - 1)),
       rate_jets_(rate_.size()),
-      values_(pinned_.functions.outputs.size()) {
+      values_(pinned_.functions.outputs.size()),
+      displacement_(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(state_.size()))),
+      repels_(pinned_.directions.size(), false) {
   for (const PinnedLaw::Border& each : pinned_.borders) {
     first_pin_.push_back(pins_.size());
     for (const PinnedLaw::Pin& pin : each.pins)
@@ -79,7 +82,12 @@ void LawBranches::set_side(int index, const BorderSide& side) {
 }
 
 Eigen::RowVectorXd LawBranches::gradient(int border, double t, const double* q) {
-  const auto row = static_cast<Eigen::Index>(function_of(border));
+  if (pinned_.is_direction(border))  // of its length
+    return vector_of(border, t, q).normalized().transpose() * derivative_of(border, t, q);
+  return function_derivatives(t, q).row(static_cast<Eigen::Index>(function_of(border)));
+}
+
+Eigen::MatrixXd LawBranches::function_derivatives(double t, const double* q) const {
   const auto rows = static_cast<Eigen::Index>(pinned_.functions.outputs.size());
   const auto size = static_cast<Eigen::Index>(state_.size());
   Eigen::MatrixXd derivatives(rows, size + 1);
@@ -89,7 +97,7 @@ Eigen::RowVectorXd LawBranches::gradient(int border, double t, const double* q) 
       if (constant.slot == pin.slot) constant.value = pin.value;
   ProgramJacobian jacobian(functions);
   jacobian(t, q, derivatives.data(), derivatives.col(size).data());
-  return derivatives.row(row);
+  return derivatives;
 }
 
 void LawBranches::evaluate_values(double t, const double* q) {
@@ -132,6 +140,7 @@ LawBranches::Finding LawBranches::find_sides(double t, const double* q, double d
   if (passed != nullptr && sliding_) slid = sliding_->borders;
   sliding_.reset();
   undecided_.clear();
+  displacement_.setZero();
   std::vector<Near> near;
   for (int i = 0; i < static_cast<int>(sides_.size()); ++i) {
     evaluate_values(t, q);  // which may be made of the choices before
@@ -151,6 +160,10 @@ LawBranches::Finding LawBranches::find_sides(double t, const double* q, double d
     // what lets go of the motion has only just ceased to hold it
     if (!(is_passed && passed->is_slip)) near.push_back({i, *at, onward});
     set_side(i, side_of(border(i), *at, onward));
+  }
+  if (!pinned_.directions.empty()) {
+    const Finding held = hold_directions(near, t, q, direction, passed, slid);
+    if (held == Finding::moved || sliding_) return held;
   }
   for (int rounds = 0; rounds < kMostChanges; ++rounds) {
     if (const Finding finding = settle(near, t, q, direction); finding != Finding::decided)
@@ -202,6 +215,11 @@ LawBranches::Finding LawBranches::slide(std::vector<Near>& near, double t, const
   for (const Near& each : near)
     if (each.changes > 1) along.push_back({each.border, each.at});
   std::erase_if(near, [](const Near& each) { return each.changes > 1; });
+  return slide_along(std::move(along), near, t, q, direction);
+}
+
+LawBranches::Finding LawBranches::slide_along(std::vector<SlidingBorder> along, std::vector<Near>& near, double t,
+                                              const double* q, double direction) {
   for (const SlidingBorder& each : along) undecided_.push_back(each.border);
   for (int rounds = 0; rounds < kMostChanges && !along.empty(); ++rounds) {
     auto law = make_sliding_law(pinned_, sides_, along);
@@ -225,6 +243,7 @@ bool LawBranches::leave_border(std::vector<SlidingBorder>& along, double t, cons
   for (std::size_t k = 0; k < along.size(); ++k) {
     const double share = median(sliding_->share_values[k][0]);
     if (share >= 0.0 && share <= 1.0) continue;
+    if (pinned_.is_direction(along[k].border)) return false;  // asked for before
     set_side(along[k].border, side_of(border(along[k].border), along[k].at, share > 1.0 ? 1.0 : -1.0));
     along.erase(along.begin() + static_cast<std::ptrdiff_t>(k));
     return true;

@@ -74,13 +74,7 @@ void read_rotation(const TableReader& table, BodyDefinition& body) {
   body.torque = table.optional_vector("torque", kTorque);
   body.torque_body = table.optional_vector("torque_body", kTorque);
   body.force_point = table.optional_vector("force_point", kLength);
-  if (!table.has("inertia")) return;
-  const toml::array* rows = table.table().get("inertia")->as_array();
-  if (rows != nullptr && !rows->empty() && rows->get(0)->is_array()) {
-    body.inertia = table.vectors("inertia", 3, kInertia);
-  } else {
-    body.principal_inertia = table.vector("inertia", kInertia);
-  }
+  if (table.has("inertia")) read_inertia(table, body);
 }
 
 void read_points(const TableReader& table, BodyDefinition& body) {
@@ -90,6 +84,17 @@ void read_points(const TableReader& table, BodyDefinition& body) {
 }
 
 }  // namespace
+
+void read_inertia(const TableReader& table, BodyDefinition& body) {
+  body.inertia.clear();
+  body.principal_inertia.reset();
+  const toml::array* rows = table.table().get("inertia")->as_array();
+  if (rows != nullptr && !rows->empty() && rows->get(0)->is_array()) {
+    body.inertia = table.vectors("inertia", 3, kInertia);
+  } else {
+    body.principal_inertia = table.vector("inertia", kInertia);
+  }
+}
 
 std::vector<ShapeKind> body_shapes() {
   std::vector<ShapeKind> shapes;

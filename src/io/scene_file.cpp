@@ -7,6 +7,7 @@
 #include <memory>
 #include <system_error>
 
+#include "scene_method.hpp"
 #include "scene_solids.hpp"
 #include "scene_tables.hpp"
 #include "table_runs.hpp"
@@ -52,7 +53,7 @@ class SceneReader {
     if (!root.has("time")) throw InputError(root.where(), "the scene lacks the table [time] with the key 'end'");
     scene.time = read_time(root.subtable("time").titled("[time]"));
     scene.method.where = root.where();
-    if (root.has("method")) scene.method = read_method(root.subtable("method").titled("[method]"));
+    if (root.has("method")) scene.method = detail::read_method(root.subtable("method").titled("[method]"));
     for (const TableReader& table : array_of_tables(document_, "body"))
       scene.bodies.push_back(detail::read_body(table));
     read_obstacles(scene);
@@ -181,39 +182,6 @@ class SceneReader {
     return time;
   }
 
-  static MethodOptions read_method(const TableReader& table) {
-    const detail::Keys keys = detail::method_keys();
-    table.check_keys(detail::names(keys));
-    MethodOptions method;
-    method.where = table.where("name");
-    if (table.has("name")) method.name = table.text("name");
-    method.rtol = table.optional_scalar("rtol", kDimensionless);
-    method.atol = table.optional_scalar("atol", kDimensionless);
-    method.step = table.optional_scalar("step", kTime);
-    method.max_step = table.optional_scalar("max_step", kTime);
-    if (table.has("steps")) method.steps = table.scalar_list("steps", kTime);
-    if (method.step && !method.steps.empty()) table.fail("steps", "'step' or 'steps' expected, not both");
-    constexpr long kMaxOrder = 1000;  // far beyond any use; keeps it an int
-    const long order = table.whole_number("order", 1, 0);
-    method.order_where = table.where("order");
-    if (order > kMaxOrder) table.fail("order", "an order of at most " + std::to_string(kMaxOrder) + " expected");
-    method.order = static_cast<int>(order);
-    method.max_steps = table.whole_number("max_steps", 1, method.max_steps);
-    method.max_seconds = table.optional_scalar("max_seconds", kTime);
-    std::vector<std::string_view> orientations;
-    for (const OrientationInfo& info : orientation_ways()) orientations.push_back(info.name);
-    method.orientation_where = table.where("orientation");
-    const OrientationInfo* alias = table.has("orientation") ? find_orientation_way(table.text("orientation")) : nullptr;
-    method.orientation =
-        alias != nullptr ? alias->way : orientation_ways()[table.choice("orientation", orientations, 0)].way;
-    method.locate = std::array{Locator::polynomial, Locator::interpolation,
-                               Locator::subdivision}[table.choice("locate", detail::words(keys, "locate"), 0)];
-    method.simultaneous =
-        std::array{Simultaneous::reflections,
-                   Simultaneous::group}[table.choice("simultaneous", detail::words(keys, "simultaneous"), 0)];
-    return method;
-  }
-
   static StateDefinition read_state(const TableReader& table) {
     table.check_keys(detail::names(detail::state_keys()));
     return {table.text("name"), table.scalar("value", std::nullopt), table.scalar("rate", std::nullopt),
@@ -226,9 +194,7 @@ class SceneReader {
     EventDefinition event{
         table.text("name"), table.scalar("when", std::nullopt), CrossingDirection::any, EventAction::record, {},
         table.where("name")};
-    event.direction =
-        std::array{CrossingDirection::rising, CrossingDirection::falling,
-                   CrossingDirection::any}[table.choice("direction", detail::words(keys, "direction"), 2)];
+    event.direction = detail::read_direction(table);
 
     // Both `set = {…}` and `action = {set = {…}}` are read.
     const bool nested = table.has("action") && table.table().get("action")->is_table();

@@ -1,6 +1,7 @@
 #include "trajet/io/scene_overrides.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <string_view>
 
 #include "formula_text.hpp"
@@ -53,9 +54,19 @@ std::string without_blanks_around(std::string text) {
   return text;
 }
 
-std::string without_quotes_around(const std::string& text) {
-  const bool is_quoted = text.size() >= 2 && text.front() == '"' && text.back() == '"';
-  return is_quoted ? text.substr(1, text.size() - 2) : text;
+/// A table with one key, as scene files give it; a word needs no quotation marks.
+void read_key(const detail::SceneKey& key, const std::string& name, const std::string& value, const TextName& file,
+              detail::FormulaReader& formulas) {
+  const std::string last = name.substr(name.rfind('.') + 1);
+  const auto read = [&](const std::string& text) {
+    constexpr int kNoLine = 0;
+    const detail::TomlDocument document(text, file, kNoLine);
+    key.read({document, document.root(), "--set", {file}, formulas});
+  };
+  const bool is_word = ranges::all_of(
+      value, [](char c) { return c == '-' || c == '#' || std::isalnum(static_cast<unsigned char>(c)) != 0; });
+  const bool is_number = !value.empty() && std::isdigit(static_cast<unsigned char>(value.front())) != 0;
+  read(last + " = " + (is_word && !is_number && value != "true" && value != "false" ? '"' + value + '"' : value));
 }
 
 void set_parameter(const std::string& assignment, Scene& scene) {
@@ -66,12 +77,13 @@ void set_parameter(const std::string& assignment, Scene& scene) {
   if (name.find('.') != std::string::npos) {
     const SourceLocation where{"--set " + name};
     const detail::SceneKey key = detail::find_key(scene, name, where);
-    if (key.set_word) {
-      key.set_word(without_quotes_around(value));
+    detail::FormulaReader formulas = formulas_of(scene);
+    if (key.read) {
+      read_key(key, name, value, where.file, formulas);
+      scene.tables = formulas.tables();
       return;
     }
     refuse_range(name, value);
-    detail::FormulaReader formulas = formulas_of(scene);
     Expression formula = formulas.read(value, where, key.dimension);
     formulas.read_tables(formula);
     scene.tables = formulas.tables();

@@ -37,6 +37,9 @@ std::shared_ptr<const FrictionDefinition> read_friction(const TableReader& table
 /// What the key `collides_with` of a body says: a word, or an array of names.
 CollidesWith read_collides_with(const TableReader& table);
 
+/// What the key `inertia` of a body says: three moments, or a matrix, in place of what it had.
+void read_inertia(const TableReader& table, BodyDefinition& body);
+
 /// Reads a table `[[pair]]`.
 PairDefinition read_pair(const TableReader& table);
 

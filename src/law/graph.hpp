@@ -88,6 +88,8 @@ class Graph {
   /// The value of an operation on constants, computed in numbers of type T.
   template <class T>
   T computed(const Node& node) const;
+  /// The slope of a table at x; none where it has too many points.
+  std::optional<int> slope_of(const LookupTable& values, int x);
   /// The derivative of an operation from those of its operands.
   std::optional<int> derivative_of(int node, const std::array<int, 3>& of_operands);
   int add_constant(int a, const ExtendedConstant& k);

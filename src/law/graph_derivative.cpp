@@ -1,9 +1,27 @@
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "graph.hpp"
 
 namespace trajet::detail {
+
+std::optional<int> Graph::slope_of(const LookupTable& values, int x) {
+  constexpr int kMostCells = 256;  // all are computed wherever x lies
+  if (values.cell_count() > kMostCells) return std::nullopt;
+  const int outside = constant(std::numeric_limits<double>::quiet_NaN());
+  int slope = outside;
+  for (int i = values.cell_count(); i-- > 0;) {
+    // c1 + 2 c2 u + 3 c3 u^2
+    const LookupTable::Cell& cell = values.cell(i);
+    const int u = subtract(x, constant(cell.begin));
+    const int bent = add(multiply(constant(3.0 * cell.c3), u), constant(2.0 * cell.c2));
+    const int here = add(multiply(bent, u), constant(cell.c1));
+    const bool is_last = i + 1 == values.cell_count();
+    slope = where(compare(is_last ? Opcode::less_equal : Opcode::less, x, constant(values.cell_end(i))), here, slope);
+  }
+  return where(compare(Opcode::less, x, constant(values.first())), outside, slope);
+}
 
 std::optional<int> Graph::derivative(int index, std::span<const int> of_inputs) {
   const std::vector<bool> live = find_live(std::array{index});
@@ -113,9 +131,12 @@ std::optional<int> Graph::derivative_of(int r, const std::array<int, 3>& of_oper
       return where(a, db, dc);
     case Opcode::norm:
       return over(add(add(times(a, da), times(b, db)), times(c, dc)), r);
+    case Opcode::table: {
+      const std::optional<int> slope = slope_of(*tables_[static_cast<std::size_t>(b)], a);
+      return slope ? std::optional(times(*slope, da)) : std::nullopt;
+    }
     case Opcode::sin_cos:
     case Opcode::sinh_cosh:  // of programs alone
-    case Opcode::table:
       return std::nullopt;
   }
   return std::nullopt;

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "graph.hpp"
+#include "law_directions.hpp"
 #include "trajet/law/time_branches.hpp"
 
 namespace trajet {
@@ -34,11 +35,12 @@ bool chooses(Opcode opcode) {
 
 class PinnedLawBuilder {
  public:
-  explicit PinnedLawBuilder(const Program& law)
-      : law_(law),
-        time_slots_(find_time_slots(law)),
-        step_slots_(find_step_slots(law)),
-        now_in_(static_cast<std::size_t>(law.slot_count)) {
+  explicit PinnedLawBuilder(detail::DirectedLaw law)
+      : law_(std::move(law.law)),
+        directions_(std::move(law.directions)),
+        time_slots_(find_time_slots(law_)),
+        step_slots_(find_step_slots(law_)),
+        now_in_(static_cast<std::size_t>(law_.slot_count)) {
     std::iota(now_in_.begin(), now_in_.end(), 0);
   }
 
@@ -53,6 +55,14 @@ class PinnedLawBuilder {
       }
     }
     for (std::int32_t& slot : pinned_.outputs) slot = now_in(slot);
+    for (const detail::LawDirection& each : directions_) {
+      PinnedLaw::Direction direction{{}, each.hold, each.unit};
+      for (const std::int32_t slot : each.components) {
+        direction.functions.push_back(static_cast<int>(function_slots_.size()));
+        function_slots_.push_back(now_in(slot));
+      }
+      result_.directions.push_back(std::move(direction));
+    }
     result_.functions = pinned_;
     result_.functions.outputs = function_slots_;
     drop_unused(result_.functions);
@@ -162,7 +172,8 @@ class PinnedLawBuilder {
     program.instructions.assign(kept.rbegin(), kept.rend());
   }
 
-  const Program& law_;
+  Program law_;
+  std::vector<detail::LawDirection> directions_;
   std::vector<bool> time_slots_, step_slots_;
   std::vector<std::int32_t> now_in_;  // where the pinned law has what was in a slot
   Program pinned_;
@@ -175,17 +186,24 @@ class PinnedLawBuilder {
 
 bool chooses_by_state(const Program& law) {
   const auto& all = law.instructions;
-  const bool has_choice = std::any_of(all.begin(), all.end(), [](const Instruction& i) { return chooses(i.opcode); });
-  return has_choice && !pin_choices(law).borders.empty();
+  const bool may_choose = std::any_of(
+      all.begin(), all.end(), [](const Instruction& i) { return chooses(i.opcode) || i.opcode == Opcode::norm; });
+  if (!may_choose) return false;
+  const PinnedLaw pinned = pin_choices(law);
+  return !pinned.borders.empty() || !pinned.directions.empty();
 }
 
-PinnedLaw pin_choices(const Program& law) { return PinnedLawBuilder(law).build(); }
+PinnedLaw pin_choices(const Program& law) { return PinnedLawBuilder(detail::open_directions(law)).build(); }
 
 int first_output_of(const PinnedLaw& law, int border) {
   std::vector<bool> depends(static_cast<std::size_t>(law.law.slot_count), false);
   const auto at = [&](std::int32_t slot) { return depends.begin() + slot; };
-  for (const PinnedLaw::Pin& pin : law.borders[static_cast<std::size_t>(border)].pins)
-    for (const std::int32_t slot : pin.slots) *at(slot) = true;
+  if (law.is_direction(border)) {
+    for (const std::int32_t slot : law.direction(border).unit) *at(slot) = true;
+  } else {
+    for (const PinnedLaw::Pin& pin : law.borders[static_cast<std::size_t>(border)].pins)
+      for (const std::int32_t slot : pin.slots) *at(slot) = true;
+  }
   for (const Instruction& i : law.law.instructions) {
     const int count = detail::operand_count(i.opcode);
     *at(i.result) = *at(i.a) || (count > 1 && *at(i.b)) || (count > 2 && *at(i.c));

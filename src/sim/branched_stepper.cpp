@@ -45,8 +45,10 @@ void BranchedStepper::begin(double direction, bool may_pin) {
   const std::vector<SlidingBorder> before(branches_->sliding().begin(), branches_->sliding().end());
   const double t = system_.within_piece(time_);
   if (may_pin) {
-    const Finding finding = passed_ ? branches_->pass(*passed_, t, state_.data(), direction)
-                                    : branches_->begin(t, state_.data(), direction);
+    Finding finding = passed_ ? branches_->pass(*passed_, t, state_.data(), direction)
+                              : branches_->begin(t, state_.data(), direction);
+    displace();
+    if (finding == Finding::moved) finding = branches_->begin(t, state_.data(), direction);
     undecided_ += finding == Finding::undecided ? 1 : 0;
     may_pin = finding == Finding::decided;
     if (may_pin) record_slides(before);
@@ -61,6 +63,33 @@ void BranchedStepper::begin(double direction, bool may_pin) {
   } else {
     stepper_->start(time_, state_);
   }
+}
+
+void BranchedStepper::displace() {
+  const Eigen::VectorXd& displacement = branches_->displacement();
+  if (displacement.isZero(0.0)) return;
+  state_ += displacement;
+  if (!extended_) return;
+  for (Eigen::Index i = 0; i < displacement.size(); ++i) {
+    Extended& component = (*extended_)[i];
+    if (displacement[i] != 0.0) component = state_[i] == 0.0 ? Extended(0) : component + Extended(displacement[i]);
+  }
+}
+
+bool BranchedStepper::approach(double& t_limit, double direction) {
+  if (branches_->pinned().directions.empty() || system_.is_whole()) return false;
+  const State error =
+      segment_.dimension() == state_.size() ? State(segment_.error_bound()) : State::Zero(state_.size());
+  const auto approach = branches_->approach(system_.within_piece(time_), state_.data(), direction, error);
+  if (!approach) return false;
+  if (approach->is_there) {
+    passed_ = LawBranches::End{time_, approach->border, 0.0, -1.0, false, true};
+    return true;
+  }
+  // The direction turns the faster the shorter the vector is: no step comes to its end at once.
+  constexpr double kPart = 0.5;
+  if (kPart * approach->duration < std::abs(t_limit - time_)) t_limit = time_ + direction * kPart * approach->duration;
+  return false;
 }
 
 void BranchedStepper::record_slides(const std::vector<SlidingBorder>& before) {
@@ -97,15 +126,22 @@ StepStatus BranchedStepper::advance(double t_limit) {
   switch_.reset();
   system_.keep_within_piece();
   const double direction = t_limit < time_ ? -1.0 : 1.0;
-  int changes = 0;
+  int changes = 0, approaches = 0;
   bool may_pin = true;
   while (true) {
+    branches_->set_horizon(std::abs(t_limit - time_));
     if (std::exchange(begins_, false)) begin(direction, may_pin);
+    double limit = t_limit;
+    if (++approaches <= kMaxBranchChanges && approach(limit, direction)) {
+      if (!begins_) extended_ = stepper_->extended_state(static_cast<Extended>(segment_.duration()));
+      begins_ = true;
+      continue;
+    }
     if (undecided_ > kMostUndecided) {
       undecided_component_ = first_output_of(branches_->pinned(), branches_->undecided().front());
       return StepStatus::step_too_small;
     }
-    if (const StepStatus status = step(t_limit); status != StepStatus::ok) {
+    if (const StepStatus status = step(limit); status != StepStatus::ok) {
       if (system_.is_whole()) return status;
       may_pin = false;
       begins_ = true;

@@ -60,6 +60,10 @@ class BranchedStepper final : public AnyStepper {
  private:
   /// The stepper goes on from the state, on the branches that are found there, or on none.
   void begin(double direction, bool may_pin);
+  /// The state goes where the branches have found that it has to begin.
+  void displace();
+  /// Whether a vector whose direction the law reads has come to zero; else the step is not to come to its end at once.
+  bool approach(double& t_limit, double direction);
   void record_slides(const std::vector<SlidingBorder>& before);
   /// The motion stands at the end of a branch, by the law before.
   void arrive(const LawBranches::End& end);

@@ -133,6 +133,15 @@ TEST(ReportedScenes, AStepThatIsFarTooLongEnds) {
   EXPECT_LT(result.statistics.steps, 10000);
 }
 
+TEST(ReportedScenes, AWallThinnerThanRoundingIsHit) {
+  const RunResult result = run_text(
+      "[time]\nend = 2\n[[body]]\nname = \"p\"\nposition = [-1e5, 0, 0]\nvelocity = [1e5, 0, 0]\n[[obstacle]]\nname = "
+      "\"a\"\nshape = \"box\"\ncenter = [0, 0, 0]\nsize = [1e-9, 1, 1]\non_hit = \"bounce\"\n");
+  ASSERT_EQ(kinds_of(result), std::vector{ImpactKind::hit});
+  EXPECT_NEAR(result.impacts[0].time, 1.0, 1e-13);
+  EXPECT_NEAR(test::final_of(result, "p").position.x(), -1e5, 1e-6);
+}
+
 TEST(ReportedScenes, ABeadOnAShakenTableIsThrownOffAndComesBack) {
   for (const double frequency : {5.0, 10.0, 20.0}) {
     const RunResult result = run_text("[parameters]\nA = \"5 mm\"\nf = \"" + number(frequency) + " Hz\"" +

@@ -202,11 +202,41 @@ TEST(Sticking, AStateStaysWhereItsRateTurnsRound) {
     }
 }
 
-TEST(Sticking, WhatCannotBeDecidedIsSaidWithItsPlace) {
-  Scene scene = parse_scene("[time]\nend = 1e3\n[[state]]\nname = \"u\"\nvalue = 1\nrate = \"0\"\n", "test.toml");
-  scene.tables["wanted"] =
-      std::make_shared<const LookupTable>(std::vector{0.0, 500.0, 1000.0}, std::vector{0.0, 1.0, 0.0});
+/// A thermostat whose wanted temperature is that of a table of points at i, i = 0 … `last`.
+Scene thermostat(const std::vector<double>& wanted) {
+  Scene scene = parse_scene("[time]\nend = 10\n[[state]]\nname = \"u\"\nvalue = 1\nrate = \"0\"\n", "test.toml");
+  std::vector<double> times;
+  for (std::size_t i = 0; i < wanted.size(); ++i) times.push_back(static_cast<double>(i));
+  scene.tables["wanted"] = std::make_shared<const LookupTable>(times, wanted);
   scene.states[0].rate = Expression::parse("where(u > table(\"wanted\", t), -5, 5)", SourceLocation{"test.toml", 6, 9});
+  return scene;
+}
+
+// Times at which the table's pieces end are ends of steps, along the border too.
+TEST(Sticking, ABorderMayFollowATableOfTime) {
+  const std::vector<double> wanted{0.1, 1.0, 2.3, 1.7, -0.4, 0.6, 0.2, 1.9, 2.4, 2.2, 1.25};
+  for (const ToleratedWay& method : methods_for(10.0)) {
+    Scene scene = thermostat(wanted);
+    scene.method = parse_scene("[time]\nend = 10\n[method]\n" + method.way.lines, "m.toml").method;
+    const RunResult result = run(scene);
+    SCOPED_TRACE(method.way.name + result.failure);
+    ASSERT_EQ(result.status, RunStatus::finished);
+    EXPECT_NEAR(test::state_of(result, "u"), 1.25, 10.0 * method.tolerance);
+    const std::vector<EventRecord> sticks = events_named(result, "sticks");
+    ASSERT_GE(sticks.size(), 1u);
+    // the table's first cell is met on its way down: 1 - 5 t = wanted(t)
+    const double met = sticks[0].time;
+    EXPECT_NEAR((*scene.tables["wanted"])(met), 1.0 - 5.0 * met, 10.0 * method.tolerance);
+    // it slips where the table falls or rises by more than 5 a second: here it never does
+    EXPECT_TRUE(events_named(result, "slips").empty());
+  }
+}
+
+TEST(Sticking, WhatCannotBeDecidedIsSaidWithItsPlace) {
+  // so many points that a law along them is too long
+  std::vector<double> wanted;
+  for (int i = 0; i <= 300; ++i) wanted.push_back(std::sin(i));
+  Scene scene = thermostat(wanted);
   const RunResult result = run(scene);
   EXPECT_EQ(result.status, RunStatus::failed);
   EXPECT_EQ(result.failure,

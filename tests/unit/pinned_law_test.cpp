@@ -26,6 +26,9 @@ Program compile(std::initializer_list<std::string> formulas) {
   symbols.set_input("z", 3);
   symbols.set_table("bumps", std::make_shared<const LookupTable>(std::vector{-9.0, -1.0, 0.0, 0.5, 2.0, 9.0},
                                                                  std::vector{0.0, 1.0, -1.0, 3.0, 0.0, 1.0}));
+  std::vector<double> places, heights;
+  for (int i = 0; i <= 300; ++i) places.push_back(i), heights.push_back(i % 7);
+  symbols.set_table("many", std::make_shared<const LookupTable>(places, heights));
   ProgramBuilder builder(kInputs);
   for (const std::string& formula : formulas)
     builder.add_output(builder.compile_scalar(Expression::parse(formula), symbols));
@@ -155,6 +158,34 @@ TEST(SlidingLaw, KeepsTheFunctionOfItsBorder) {
   }
 }
 
+TEST(PinnedLaw, KnowsDirectionsThatTheirOwnVectorReactsTo) {
+  const auto directions = [](std::initializer_list<std::string> formulas) {
+    return pin_choices(compile(formulas)).directions.size();
+  };
+  for (const char* way : {"-3*dot(unit([x, y, z]), [1, 0, 0])", "1 - 2*x/norm([x, y, z])", "z - 2/norm([x, y, z])*x",
+                          "-(x*t)/norm([x, y, z])*2", "-(3*x)/norm([x, y, z])"})
+    EXPECT_EQ(directions({way, "-y/norm([x, y, z])", "-z/norm([x, y, z])"}), 1u) << way;
+  // a force to a centre, a drag, and a direction that no rate of its own vector reads
+  EXPECT_EQ(directions({"z", "z", "-x/norm([x, y, 0])"}), 0u);
+  EXPECT_EQ(directions({"-x*norm([x, y, z])", "-y", "-z"}), 0u);
+  EXPECT_EQ(directions({"-x/norm([x, y, z])^3", "-y", "-z"}), 0u);
+}
+
+TEST(SlidingLaw, HoldsTheVectorOfADirection) {
+  const PinnedLaw pinned = pin_choices(compile({"1 + z - 3*x/norm([x, y, 0])", "t - 2*y/norm([x, y, 0])", "x + 5"}));
+  ASSERT_EQ(pinned.directions.size(), 1u);
+  const std::vector<double> q{0.0, 0.0, 0.5};
+  const std::vector<SlidingBorder> along{{0, 0.0}};
+  const auto sliding = make_sliding_law(pinned, {}, along);
+  ASSERT_TRUE(sliding);
+  const std::vector<double> rate = values(sliding->law, 0.25, q);
+  EXPECT_EQ(rate, (std::vector{0.0, 0.0, 5.0}));
+  const double u = 1.5 / 3.0, v = 0.25 / 2.0;
+  EXPECT_NEAR(values(sliding->shares, 0.25, q)[0], 0.5 * (1.0 + u * u + v * v), 1e-15);
+  const std::vector<double> holds = values(sliding->holds, 0.25, q), expected{u, v, 1.5, 0.25, -5.0};
+  for (std::size_t i = 0; i < expected.size(); ++i) EXPECT_NEAR(holds[i], expected[i], 1e-15) << i;
+}
+
 TEST(SlidingLaw, OfTwoBordersKeepsBoth) {
   const PinnedLaw pinned = pin_choices(compile({"1 - 4*sign(x) + 3*sign(y - x)", "-3*sign(y - x)", "0"}));
   ASSERT_EQ(pinned.borders.size(), 2u);
@@ -173,11 +204,24 @@ TEST(SlidingLaw, OfTwoBordersKeepsBoth) {
   EXPECT_GT(largest, 0.5);
 }
 
-TEST(SlidingLaw, IsNoneWhereATableOfTimeDecides) {
-  const PinnedLaw pinned = pin_choices(compile({"-sign(x - table(\"bumps\", t))", "0", "0"}));
+TEST(SlidingLaw, FollowsATableOfTimeUnlessItHasTooManyPoints) {
+  const PinnedLaw pinned = pin_choices(compile({"-9*sign(x - table(\"bumps\", t))", "0", "0"}));
   ASSERT_EQ(pinned.borders.size(), 1u);
   const std::vector<SlidingBorder> along{{0, 0.0}};
-  EXPECT_FALSE(make_sliding_law(pinned, std::vector<BorderSide>(1), along));
+  const auto sliding = make_sliding_law(pinned, std::vector<BorderSide>(1), along);
+  ASSERT_TRUE(sliding);
+  const auto slope = [&](double t) { return values(sliding->law, t, {0.0, 0.0, 0.0})[0]; };
+  const Program bumps = compile({"table(\"bumps\", t)", "0", "0"});
+  const auto height = [&](double t) { return values(bumps, t, {0.0, 0.0, 0.0})[0]; };
+  // central differences: of a cubic they are off by h^2 c3
+  constexpr double kStep = 1e-5;
+  for (const double t : {-8.0, -0.5, 0.2, 0.4, 1.0, 5.0, 8.9})
+    EXPECT_NEAR(slope(t), (height(t + kStep) - height(t - kStep)) / (2.0 * kStep), 1e-8) << t;
+  EXPECT_TRUE(std::isnan(slope(10.0)));
+  EXPECT_TRUE(std::isnan(slope(-10.0)));
+
+  const PinnedLaw many = pin_choices(compile({"-sign(x - table(\"many\", t))", "0", "0"}));
+  EXPECT_FALSE(make_sliding_law(many, std::vector<BorderSide>(1), along));
 }
 
 }  // namespace

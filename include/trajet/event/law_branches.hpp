@@ -30,6 +30,7 @@ class LawBranches {
   /// What the branches were found to be.
   enum class Finding {
     decided,
+    moved,      ///< the motion is to start from a state that differs by rounding, `displacement`
     undefined,  ///< what decides is not a number
     undecided,  ///< whichever branch is taken leads back to the border, and there is no sliding along it either
   };
@@ -63,6 +64,19 @@ class LawBranches {
   /// Along what the motion slides; then its law is `sliding_law` instead of the pinned one.
   std::span<const SlidingBorder> sliding() const;
   const Program& sliding_law() const { return sliding_->law.law; }
+  /// For how long the motion is to go on, s: what is displaced is so by less than that rounds to.
+  void set_horizon(double duration) { horizon_ = duration; }
+  /// What is to be added to the state: a vector that vanishes, and whose direction the law reads, has one then, or is
+  /// exactly zero where the law holds it there.
+  const Eigen::VectorXd& displacement() const { return displacement_; }
+  /// How long the vectors whose directions the law reads, and that it may hold at zero, take to come there at their
+  /// rates at time `t`, s; nothing where none is on its way there.
+  struct Approach {
+    int border;  ///< the direction's
+    double duration;
+    bool is_there;  ///< to rounding, and to what the state may be off by
+  };
+  std::optional<Approach> approach(double t, const double* q, double direction, const Eigen::VectorXd& error);
   /// Those on which it was not decided what becomes of the motion.
   std::span<const int> undecided() const { return undecided_; }
 
@@ -80,11 +94,13 @@ class LawBranches {
     std::vector<SlidingBorder> borders;
     SlidingLaw law;
     std::vector<int> inputs;  // that the shares read
-    Evaluator<double> rate, residuals;
+    Evaluator<double> rate, residuals, holds;
     Evaluator<IntervalJet> rate_jets, shares;
     std::vector<IntervalJet> share_values;
   };
 
+  /// Of all functions by state and time.  // (functions x (state + 1))
+  Eigen::MatrixXd function_derivatives(double t, const double* q) const;
   const PinnedLaw::Border& border(int index) const { return pinned_.borders[static_cast<std::size_t>(index)]; }
   std::size_t function_of(int index) const { return static_cast<std::size_t>(border(index).function); }
   Interval value(int index) const { return values_[function_of(index)][0]; }
@@ -97,6 +113,19 @@ class LawBranches {
   Finding settle(std::vector<Near>& near, double t, const double* q, double direction);
   /// The same where some lead back on both sides: it slides along them.
   Finding slide(std::vector<Near>& near, double t, const double* q, double direction);
+  Finding slide_along(std::vector<SlidingBorder> along, std::vector<Near>& near, double t, const double* q,
+                      double direction);
+  // Directions, in law_holds.cpp.
+  const PinnedLaw::Direction& direction_of(int index) const { return pinned_.direction(index); }
+  bool is_near_zero(int direction) const;
+  Eigen::VectorXd vector_of(int direction, double t, const double* q);
+  /// The derivative of its vector by state and time.  // (components x (state + 1))
+  Eigen::MatrixXd derivative_of(int direction, double t, const double* q);
+  /// The change of the state, the smallest one, that gives the vector that value.
+  Eigen::VectorXd change_to(int direction, const Eigen::VectorXd& value, double t, const double* q);
+  /// Whether the law holds the vectors of directions at zero.
+  Finding hold_directions(std::vector<Near>& near, double t, const double* q, double direction, const End* passed,
+                          const std::vector<SlidingBorder>& slid);
   /// Takes from `along` what does not hold the motion, and puts it on the side to which that is left. Whether the rest
   /// is to be tried anew.
   bool leave_border(std::vector<SlidingBorder>& along, double t, const double* q);
@@ -118,6 +147,9 @@ class LawBranches {
   std::vector<IntervalJet> state_, rate_jets_, values_;
   std::unique_ptr<Sliding> sliding_;
   std::vector<int> undecided_;
+  Eigen::VectorXd displacement_;
+  double horizon_ = 0.0;
+  std::vector<bool> repels_;  // directions in which the law drives their vectors away from zero, as last found
 };
 
 }  // namespace trajet

@@ -13,6 +13,9 @@ namespace trajet {
 /// borders at which it changes, and a step that passes one can be told where.
 ///
 /// What functions of t alone decide chooses as before, and so does what is decided by other choices.
+///
+/// The direction x / |x| of a vector that the state makes, as of a velocity in dry friction, is a choice too where x
+/// vanishes: there it may be said from outside.
 struct PinnedLaw {
   /// What one choice reads in place of what decides it.
   struct Pin {
@@ -31,18 +34,30 @@ struct PinnedLaw {
     bool is_by_sign() const { return table == nullptr && !is_floor; }
   };
 
+  /// A vector whose direction the law reads. Its rate changes with that.
+  struct Direction {
+    std::vector<int> functions;      ///< outputs of `functions`: its components
+    std::int32_t hold = 0;           ///< slot of a constant, in both programs: not 0, and the law reads `unit` instead
+    std::vector<std::int32_t> unit;  ///< slots of constants, one for each component
+  };
+
   Program law;        ///< inputs and outputs as those of the law
   Program functions;  ///< what decides, as the pinned law has it
   std::vector<Border> borders;
+  std::vector<Direction> directions;
+
+  /// Directions are numbered behind the borders where both are meant.
+  bool is_direction(int index) const { return index >= static_cast<int>(borders.size()); }
+  const Direction& direction(int index) const { return directions[static_cast<std::size_t>(index) - borders.size()]; }
 };
 
 /// Whether a choice of the law depends on the state.
 bool chooses_by_state(const Program& law);
 
-/// Without borders where none does.
+/// Without borders and directions where none does.
 PinnedLaw pin_choices(const Program& law);
 
-/// The first output of the law that a border's choices change directly, or -1.
+/// The first output of the law that the choices of a border, or a direction, change directly, or -1.
 int first_output_of(const PinnedLaw& law, int border);
 
 /// Where the function of a border lies: on a side of zero, or in an interval that it is to leave.

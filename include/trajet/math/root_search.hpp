@@ -101,7 +101,10 @@ double refine_root(double a, double value_a, double b, double value_b, Evaluate&
     }
     // t' = t - f(t) / f'(t)
     double next = t - value / rate;
-    if (next == t) return t;
+    // a rate far beyond the bracket's own, as next to a corner, tells nothing of where the root is
+    constexpr double kSteep = 64.0;
+    const bool is_steep = !(std::abs(rate) * std::abs(b - a) <= kSteep * std::abs(value_b - value_a));
+    if (next == t && !is_steep) return t;
     if (step % 3 == 2) {
       const double width = std::abs(b - a);
       if (width > 0.5 * last_width) next = 0.5 * a + 0.5 * b;

@@ -22,9 +22,10 @@ ContactResult first_contact_with(const Box& box, const MovingBall& ball, const C
   if (detail::stays_clear(bounding_ball(box), ball)) return detail::stays_separated(1);
   if (ball.radius > 0.0) return detail::grown_contact(box, ball, memory);
   const auto gap = [&box](const auto& x) { return face_gap(box, x); };
-  return detail::solid_contact(gap, ball, memory, [&](const Vector3& position) {
+  const auto place = [&](const Vector3& position) {
     return detail::SurfacePoint{closest_point(box, position), face_normal(box, position)};
-  });
+  };
+  return detail::solid_contact(gap, ball, memory, place, [&] { return box.half_size.minCoeff(); });
 }
 
 }  // namespace trajet

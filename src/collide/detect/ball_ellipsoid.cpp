@@ -24,13 +24,14 @@ struct EllipsoidGap {
 ContactResult first_contact_with(const EllipsoidBody& ellipsoid, const MovingBall& ball, const ContactMemory& memory) {
   if (detail::stays_clear(bounding_ball(ellipsoid), ball)) return detail::stays_separated(1);
   const EllipsoidGap gap{detail::EllipsoidDistance(ellipsoid, ball.path), ball.radius};
-  return detail::contact_with_surface(gap, ball, memory, [&](const Vector3& position) {
-    const Vector3 point = closest_point(ellipsoid, position);
-    const Vector3 q = ellipsoid.R_WB.transpose() * (point - ellipsoid.center);
-    // the gradient of sum (q_i / a_i)^2
-    const Vector3 gradient = q.cwiseQuotient(ellipsoid.radii.cwiseAbs2());
-    return detail::SurfacePoint{point, Vector3((ellipsoid.R_WB * gradient).stableNormalized())};
-  });
+  // in the ellipsoid's own frame: far from the origin the world's places are rounded to more than a thin one's size
+  const auto place = [&](const Vector3& position) {
+    const Vector3 p_CP = ellipsoid.R_WB.transpose() * (position - ellipsoid.center);
+    const auto foot = detail::ellipsoid_foot<double>(ellipsoid.radii, p_CP);
+    return detail::SurfacePoint{ellipsoid.center + ellipsoid.R_WB * foot.point, ellipsoid.R_WB * foot.normal};
+  };
+  return detail::contact_with_surface(gap, ball, memory, place,
+                                      [&] { return ellipsoid.radii.minCoeff() + ball.radius; });
 }
 
 }  // namespace trajet

@@ -135,10 +135,11 @@ ContactResult first_contact_with(const MeshSurface& surface, const MovingBall& b
   constexpr bool kIsSolid = true;
   const auto contact =
       detail::search_gap(gap, ball, kIsSolid, memory, detail::is_handled(memory, ball), [](double) { return true; });
-  return detail::report(gap, contact, ball, kIsSolid, [&](const Vector3& position) {
+  const auto place = [&](const Vector3& position) {
     const Vector3 point = closest_point(surface, position);
     return detail::SurfacePoint{point, (position - point).stableNormalized()};
-  });
+  };
+  return detail::report(gap, contact, ball, kIsSolid, place, [&] { return ball.radius; });
 }
 
 }  // namespace trajet

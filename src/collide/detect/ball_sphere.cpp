@@ -9,10 +9,10 @@ ContactResult first_contact_with(const Sphere& sphere, const MovingBall& ball, c
   if (detail::stays_clear(bounding_ball(sphere), ball)) return detail::stays_separated(1);
   const Sphere grown{sphere.center, sphere.radius + ball.radius};
   const auto gap = [&grown](const auto& x) { return signed_distance(grown, x); };
-  return detail::solid_contact(gap, ball, memory, [&](const Vector3& position) {
-    const Vector3 point = closest_point(sphere, position);
-    return detail::SurfacePoint{point, (point - sphere.center) / sphere.radius};
-  });
+  const auto place = [&](const Vector3& position) {
+    return detail::SurfacePoint{closest_point(sphere, position), (position - sphere.center).stableNormalized()};
+  };
+  return detail::solid_contact(gap, ball, memory, place, [&] { return grown.radius; });
 }
 
 }  // namespace trajet

@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <optional>
 
 #include "contact_search.hpp"
+#include "thin_pass.hpp"
 #include "trajet/collide/detect/contact.hpp"
 #include "trajet/collide/detect/contact_table.hpp"
 #include "trajet/geom/shapes.hpp"
@@ -43,12 +46,6 @@ inline bool stays_clear(const BoundingBall& bounds, const MovingBall& ball) {
   return false;
 }
 
-/// A point on an obstacle.
-struct SurfacePoint {
-  Vector3 point;
-  Vector3 normal;  ///< unit, to the positive side
-};
-
 /// The result for a pair that is known to stay apart, the ball on `side` of the obstacle.
 inline ContactResult stays_separated(int side) {
   ContactResult result;
@@ -56,10 +53,26 @@ inline ContactResult stays_separated(int side) {
   return result;
 }
 
-/// The result for what the search of `gap` found. `place(position)` gives the SurfacePoint for the ball's centre there.
-template <class F, class Place>
-ContactResult report(const F& gap, const GapContact& contact, const MovingBall& ball, bool is_solid, Place&& place) {
+/// The depth of what always has an inside to tell.
+struct Deep {
+  double operator()() const { return std::numeric_limits<double>::infinity(); }
+};
+
+/// The result for what the search of `gap` found. `place(position)` gives the SurfacePoint for the ball's centre there;
+/// `depth()`: that of the deepest place of a solid that has grown by the ball's radius, m.
+template <class F, class Place, class Depth = Deep>
+ContactResult report(const F& gap, const GapContact& found, const MovingBall& ball, bool is_solid, Place&& place,
+                     Depth&& depth = {}) {
   const PointPath& path = ball.path;
+  GapContact contact = found;
+  std::optional<ThinEntry> thin;
+  if (is_solid && contact.status == ContactStatus::graze && contact.side_before > 0)
+    thin = thin_entry(gap, contact, path, depth(), place);
+  if (thin) {
+    contact.status = ContactStatus::hit;
+    contact.tau = thin->tau;
+    contact.side_after = -1;
+  }
   ContactResult result;
   result.status = contact.status;
   result.memory.side = contact.side_after;
@@ -77,7 +90,13 @@ ContactResult report(const F& gap, const GapContact& contact, const MovingBall& 
                     ? ball.to
                     : std::clamp(time, std::min(ball.from, ball.to), std::max(ball.from, ball.to));
   result.position = path.value(contact.tau);
-  const SurfacePoint surface = place(result.position);
+  std::optional<SurfacePoint> seen;
+  if (thin) {
+    seen = thin->surface;
+  } else if (is_solid && contact.status == ContactStatus::hit && contact.side_before > 0) {
+    seen = surface_before(gap, contact, path, depth(), place);
+  }
+  const SurfacePoint surface = seen ? *seen : place(result.position);
   result.point = surface.point;
   result.normal = contact.side_before < 0 ? Vector3(-surface.normal) : surface.normal;
   result.side_before = contact.side_before;
@@ -85,7 +104,8 @@ ContactResult report(const F& gap, const GapContact& contact, const MovingBall& 
                      : contact.side_before > 0 ? ContactDirection::entering
                                                : ContactDirection::leaving;
 
-  const FunctionSample sample = gap.at(contact.tau);
+  FunctionSample sample = gap.at(contact.tau);
+  if (thin) sample.jet.rate = thin->rate;
   result.gap_rate = sample.jet.rate;
   result.gap_curvature = sample.jet.curvature;
   const double time_rounding = 2.0 * kUnitRoundoff * (std::abs(path.t0()) + std::abs(result.time));

@@ -12,27 +12,30 @@
 namespace trajet::detail {
 
 /// The first contact by a gap that is a function of the position: `gap(x)`, generic in its number type, positive
-/// outside.
-template <class G, class Place>
-ContactResult solid_contact(const G& gap_at, const MovingBall& ball, const ContactMemory& memory, Place&& place) {
+/// outside; `depth` as of `report`.
+template <class G, class Place, class Depth = Deep>
+ContactResult solid_contact(const G& gap_at, const MovingBall& ball, const ContactMemory& memory, Place&& place,
+                            Depth&& depth = {}) {
   const auto [begin, end] = tau_interval(ball);
   const auto at_time = [&gap_at](const IntervalJet&, const Vector3T<IntervalJet>& x) { return gap_at(x); };
   const ComposedFunction gap(ball.path, at_time, begin, end, handled_tolerance(memory, ball));
   constexpr bool kIsSolid = true;
   const auto contact = search_gap(gap, ball, kIsSolid, memory, is_handled(memory, ball), [](double) { return true; });
-  return report(gap, contact, ball, kIsSolid, place);
+  return report(gap, contact, ball, kIsSolid, place, depth);
 }
 
-/// The first contact of a ball of positive radius with a shape whose nearest point `closest_point` finds.
+/// The first contact of a ball of positive radius with a shape whose nearest point `closest_point` finds, and whose own
+/// deepest place has that `depth`, m.
 template <class F, class ConvexShape>
 ContactResult contact_of_gap(const F& gap, const ConvexShape& shape, const MovingBall& ball,
-                             const ContactMemory& memory) {
+                             const ContactMemory& memory, double depth = 0.0) {
   constexpr bool kIsSolid = true;
   const auto contact = search_gap(gap, ball, kIsSolid, memory, is_handled(memory, ball), [](double) { return true; });
-  return report(gap, contact, ball, kIsSolid, [&](const Vector3& position) {
+  const auto place = [&](const Vector3& position) {
     const Vector3 point = closest_point(shape, position);
     return SurfacePoint{point, (position - point).stableNormalized()};
-  });
+  };
+  return report(gap, contact, ball, kIsSolid, place, [&] { return depth + ball.radius; });
 }
 
 /// The first contact of a ball of positive radius with a convex shape: gap = distance(shape, x) - r.
@@ -50,7 +53,8 @@ inline ContactResult grown_contact(const Rectangle& rectangle, const MovingBall&
 }
 inline ContactResult grown_contact(const Box& box, const MovingBall& ball, const ContactMemory& memory) {
   const CuboidDistance distance(ball.path, box);
-  return contact_of_gap(GrownGap(distance, ball, handled_tolerance(memory, ball)), box, ball, memory);
+  return contact_of_gap(GrownGap(distance, ball, handled_tolerance(memory, ball)), box, ball, memory,
+                        box.half_size.minCoeff());
 }
 inline ContactResult grown_contact(const Triangle& triangle, const MovingBall& ball, const ContactMemory& memory) {
   const TriangleDistance distance(ball.path, triangle);

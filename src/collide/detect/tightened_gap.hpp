@@ -62,14 +62,14 @@ class TightenedGap {
 };
 
 /// The first contact by the gap that `surface` encloses. `place(position)` gives the SurfacePoint for the ball's centre
-/// there.
-template <class Surface, class Place>
+/// there; `depth` as of `report`.
+template <class Surface, class Place, class Depth = Deep>
 ContactResult contact_with_surface(const Surface& surface, const MovingBall& ball, const ContactMemory& memory,
-                                   Place&& place) {
+                                   Place&& place, Depth&& depth = {}) {
   const TightenedGap gap(surface, ball, handled_tolerance(memory, ball));
   constexpr bool kIsSolid = true;
   const auto contact = search_gap(gap, ball, kIsSolid, memory, is_handled(memory, ball), [](double) { return true; });
-  return report(gap, contact, ball, kIsSolid, place);
+  return report(gap, contact, ball, kIsSolid, place, depth);
 }
 
 }  // namespace trajet::detail
