@@ -258,8 +258,8 @@ bool ContactSettling::take_sinking(const BodyTerms<double>& terms, const std::ve
       const double faster =
           at.normal.dot(at.slip_rate + acceleration + turning.cross(at.arm)) + at.normal_rate.dot(at.slip);
       const bool sinks =
-          speed < -none || ((speed <= none || is_slow(at, heights[static_cast<std::size_t>(all.corners[i])])) &&
-                            faster < -least);
+          speed < -none ||
+          ((speed <= none || is_slow(at, heights[static_cast<std::size_t>(all.corners[i])])) && faster < -least);
       if (!sinks) continue;
       one.corners.push_back(all.corners[i]);
       has_any = true;

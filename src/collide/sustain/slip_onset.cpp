@@ -71,12 +71,22 @@ SlipOnset find_onset(const std::vector<OnsetPoint>& points, double coefficient) 
     load += coefficient * std::abs(point.normal) * point.share.norm();
   }
   Wrench wrench = Wrench::Zero();
-  constexpr double kFirst = 16.0, kLess = 0.25, kLast = 1e-9, kHolds = 1e3;
+  constexpr double kFirst = 16.0, kLess = 0.25, kHardlyLess = 0.999, kLast = 1e-9, kHolds = 1e3;
   onset.creep = kLast * scale;
-  onset.is_found = true;
-  for (double creep = kFirst * scale; scale > 0.0; creep = std::max(kLess * creep, onset.creep)) {
-    onset.is_found = solve(points, coefficient, creep, load, wrench);
-    if (!onset.is_found || creep == onset.creep) break;
+  onset.is_found = scale == 0.0;
+  // from large creep to small, in smaller steps where Newton's method does not follow
+  double ratio = kLess;
+  for (double solved = kFirst / kLess * scale; !onset.is_found && ratio < kHardlyLess;) {
+    const double creep = std::max(ratio * solved, onset.creep);
+    Wrench tried = wrench;
+    if (!solve(points, coefficient, creep, load, tried)) {
+      ratio = std::sqrt(ratio);
+      continue;
+    }
+    wrench = tried;
+    solved = creep;
+    ratio = std::max(kLess, ratio * ratio);
+    onset.is_found = creep == onset.creep;
   }
   for (const OnsetPoint& point : points) {
     onset.rates.emplace_back(point.free + point.by_wrench * wrench);
