@@ -102,9 +102,10 @@ when = "t"
     }
     return "none";
   };
-  EXPECT_EQ(fault_of("wall.on_hit = bonce"),
-            "--set wall.on_hit: error: unknown on_hit 'bonce', expected one of: stop, bounce, pass; did you mean "
-            "'bounce'?");
+  EXPECT_EQ(
+      fault_of("wall.on_hit = bonce"),
+      "--set wall.on_hit: error: unknown on_hit 'bonce', expected one of: stop, bounce, pass, stick; did you mean "
+      "'bounce'?");
   EXPECT_EQ(fault_of("time.ende = 1"),
             "--set time.ende: error: the scene has no key 'time.ende' that can be replaced; did you mean 'time.end'?");
   EXPECT_NE(fault_of("ball.radius = 2 kg"), "none");

@@ -44,7 +44,7 @@ TEST(SolidScene, MistakesAreErrorsAtTheirPlace) {
       {"inertia = [[1, 1, 0], [0, 1, 0], [0, 0, 1]]\ntorque = [0, 0, 1]", "s:5:13", "not symmetric"},
       {"angular_velocity = [0, 0, 1]\nangular_velocity_body = [0, 0, 1]", "s:6:26", "both"},
       {"angular_acceleration = [0, 0, 1]\ntorque = [0, 0, 1]\ninertia = [1, 1, 1]", "s:6:11", "both"},
-      {"density = 3", "s:5:11", "a point has no volume"},
+      {"density = 3", "s:5:11", "is a point and has no volume"},
       {"shape = \"sphere\"\nradius = 1\ndensity = 3\nmass = 2", "s:7:11", "both"},
       {"shape = \"box\"\nsize = [1, 0, 1]", "s:6:9", "must be positive"},
       {"shape = \"hull\"\npoints = [[0,0,0], [1,0,0], [0,1,0], [1,1,0]]", "s:4:8", "do not lie in a plane"},

@@ -78,7 +78,8 @@ Program slips_that_bend(ProgramBuilder& builder, const BodyTerms<ProgramNumber>&
   std::vector<int> nodes;
   for (std::size_t c = 0; c < modes.size(); ++c) {
     const ContactPoints& contact = terms.contacts[c];
-    if (!modes[c].slip.is_moving() || !modes[c].slip.follows) continue;
+    // places on a rim are nodes of an integral: one that hardly moves is none that stops
+    if (!modes[c].slip.is_moving() || !modes[c].slip.follows || contact.is_rim) continue;
     for (std::size_t i = 0; i < contact.points.size(); ++i) {
       if (!contact.is_one() && modes[c].points[i].state != PointSlip::State::follows) continue;
       if (modes[c].slip.begins) continue;
@@ -192,7 +193,8 @@ std::optional<ContactLaw> make_contact_law(const Program& law, const SustainedBo
       if (!resistance.follows || points.is_one()) end(c, resistance.follows ? bends : stops, ends.turns_round());
       if (resistance.follows) end(c, stops, ends.dies());
       // where one of several points stops, its direction is lost
-      for (std::size_t i = 0; resistance.follows && motions.size() > 1 && i < motions.size(); ++i) {
+      const bool has_corners = resistance.follows && motions.size() > 1 && !points.is_rim;
+      for (std::size_t i = 0; has_corners && i < motions.size(); ++i) {
         if (mode.points[i].state == PointSlip::State::begins)
           end(c, bends, -ends.is_below(motions[i], kOneBegun));
         else

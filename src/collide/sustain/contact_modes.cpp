@@ -30,6 +30,7 @@ void set_points(ContactMode& mode, const BodyTerms<double>& terms, const Contact
   }
   if (!mode.slip.is_moving() || !mode.slip.follows) return;
   mode.points.assign(count, {});
+  if (contact.is_rim) return;
   double squares = 0.0;
   std::vector<std::size_t> still;
   for (std::size_t i = 0; i < count; ++i) squares += along_surface(point(i).slip, point(i).normal).squaredNorm();
