@@ -277,7 +277,8 @@ int depth(const Program& program) {
 std::optional<BlockProgram> bundle(const Program& program) {
   constexpr int kDeepest = 1000;  // the bundler calls itself this often
   constexpr double kWorthwhile = 0.8;
-  if (depth(program) > kDeepest) return std::nullopt;
+  constexpr std::size_t kLongest = 200;  // bundling costs more than its square, and contacts make laws anew often
+  if (program.instructions.size() > kLongest || depth(program) > kDeepest) return std::nullopt;
   BlockProgram blocks = Bundler(program).run();
   const auto work = blocks.instructions.size() + blocks.groups.size() + blocks.single.size();
   const auto work_on_slots = program.instructions.size() + program.outputs.size();

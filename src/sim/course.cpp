@@ -63,7 +63,8 @@ void Course::make_stepper() {
   if (scale_) options.component_atol = scale_->tolerances();
   ProgramSystem& law = held_law_.system();
   branched_ = nullptr;
-  if (!chooses_by_state(law.program())) {
+  // of the directions of a contact's friction the contact itself knows when they are lost
+  if (!chooses_by_state(held_law_.free().program())) {
     stepper_ = world_.method->make(law, options);
     return;
   }
