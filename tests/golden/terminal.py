@@ -7,6 +7,7 @@ import fcntl
 import os
 import pty
 import re
+import select
 import struct
 import subprocess
 import sys
@@ -42,21 +43,20 @@ def on_terminal(arguments, columns=100, seconds=None, program=PROGRAM, **environ
     process = subprocess.Popen(
         [program, *arguments], stdin=slave, stdout=slave, stderr=slave, env={**cleared, **environment}
     )
-    os.close(slave)
     if seconds is not None:
         try:
             process.wait(seconds)
         except subprocess.TimeoutExpired:
             process.send_signal(2)
+    # our end of the other side stays open until all has come: where nobody has it, what is on its way can be lost
     received = b""
     while True:
-        try:
-            part = os.read(master, 65536)
-        except OSError:  # the other side is closed
+        is_over = process.poll() is not None
+        if select.select([master], [], [], 0.05)[0]:
+            received += os.read(master, 65536)
+        elif is_over:
             break
-        if not part:
-            break
-        received += part
+    os.close(slave)
     os.close(master)
     return received.decode(), process.wait()
 
