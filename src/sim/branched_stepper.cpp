@@ -232,6 +232,11 @@ void BranchedStepper::arrive(const LawBranches::End& end) {
   arrival_ = std::move(arrival);
 }
 
+void BranchedStepper::forget() {
+  if (begins_ || stepper_->is_extended() || stepper_->amend(state_)) return;
+  stepper_->start(time_, state_);
+}
+
 bool BranchedStepper::amend(const State& q) {
   if (!begins_ && !stepper_->amend(q)) return false;
   state_ = q;

@@ -33,6 +33,8 @@ class BranchedStepper final : public AnyStepper {
   const State& state() const override { return state_; }
   const StepStatistics& statistics() const override { return stepper_->statistics(); }
   bool amend(const State& q) override;
+  /// What the method remembers beside the state is void: the law has a corner here. Its branches stay.
+  void forget();
   bool is_extended() const override { return stepper_->is_extended(); }
   std::optional<ExtendedState> extended_state(Extended tau) const override { return stepper_->extended_state(tau); }
   std::vector<std::string> warnings() const override { return stepper_->warnings(); }

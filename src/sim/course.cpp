@@ -82,8 +82,11 @@ void Course::enter_piece(double t) {
 void Course::pass_switch() {
   const double t = stepper_->time();
   enter_piece(t);
-  // a law that only has a corner there goes on from the rate that the method knows
-  if (!switches_.may_jump()) return;
+  if (!switches_.may_jump()) {
+    // behind a corner a method that knows the state alone goes on; what others remember is of the law before
+    if (branched_ != nullptr) return branched_->forget();
+    if (stepper_->is_extended() || stepper_->amend(end_state_)) return;
+  }
   if (scale_) scale_->begin(t, end_state_, law());
   if (const auto extended = extended_state(static_cast<Extended>(t) - segment_.t0())) {
     stepper_->start_extended(t, *extended);

@@ -13,6 +13,7 @@
 namespace trajet {
 namespace {
 
+using test::events_named;
 using test::number;
 using test::run_text;
 using test::ToleratedWay;
@@ -31,13 +32,6 @@ std::vector<ToleratedWay> methods_for(double end) {
   add("rk4-doubling", 1e-5);
   add("euler", 1e-2);
   return all;
-}
-
-std::vector<EventRecord> events_named(const RunResult& result, const std::string& name) {
-  std::vector<EventRecord> found;
-  for (const EventRecord& event : result.events)
-    if (event.event == name) found.push_back(event);
-  return found;
 }
 
 /// Ways to write friction of the size b against the velocity.
@@ -229,6 +223,20 @@ TEST(Sticking, ABorderMayFollowATableOfTime) {
     EXPECT_NEAR((*scene.tables["wanted"])(met), 1.0 - 5.0 * met, 10.0 * method.tolerance);
     // it slips where the table falls or rises by more than 5 a second: here it never does
     EXPECT_TRUE(events_named(result, "slips").empty());
+  }
+}
+
+// The parabola along one cell of this table meets the next one at its end: what a multistep method remembers of the old
+// cell fits its error test, and is wrong.
+TEST(Sticking, WhatIsRememberedOfTheLawBeforeACornerIsNotUsedBehindIt) {
+  const std::vector<double> wanted{0.0, 1.0, 3.0, 2.0, -1.0, 0.5, 0.0, 4.0, 4.5, 4.0, 1.25};
+  for (const ToleratedWay& method : test::controlled_ways()) {
+    Scene scene = thermostat(wanted);
+    scene.method = parse_scene("[time]\nend = 10\n[method]\n" + method.way.lines, "m.toml").method;
+    const RunResult result = run(scene);
+    SCOPED_TRACE(method.way.name + result.failure);
+    ASSERT_EQ(result.status, RunStatus::finished);
+    EXPECT_NEAR(test::state_of(result, "u"), 1.25, 10.0 * method.tolerance);
   }
 }
 
