@@ -9,10 +9,6 @@
 
 namespace trajet::test {
 
-inline std::string vector(const Vector3& v) {
-  return "[" + number(v.x()) + ", " + number(v.y()) + ", " + number(v.z()) + "]";
-}
-
 struct BallOf {
   std::string name;
   double radius = 0.0;

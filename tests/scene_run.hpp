@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "trajet/io/scene_file.hpp"
+#include "trajet/math/vector.hpp"
 #include "trajet/sim/run.hpp"
 
 namespace trajet::test {
@@ -26,6 +27,10 @@ inline std::string number(double value) {
   std::snprintf(text, sizeof text, "%.17g", value);
   const std::string written = text;
   return written.find_first_of(".en") == std::string::npos ? written + ".0" : written;
+}
+
+inline std::string vector(const Vector3& v) {
+  return "[" + number(v.x()) + ", " + number(v.y()) + ", " + number(v.z()) + "]";
 }
 
 inline Way fixed(const std::string& name, double step) {
@@ -54,6 +59,23 @@ inline double state_of(const RunResult& result, const std::string& name) {
   for (const NamedValue& state : result.final.states)
     if (state.name == name) return state.value;
   throw std::out_of_range("no state '" + name + "'");
+}
+
+inline std::vector<EventRecord> events_named(const RunResult& result, const std::string& name) {
+  std::vector<EventRecord> found;
+  for (const EventRecord& event : result.events)
+    if (event.event == name) found.push_back(event);
+  return found;
+}
+
+/// What is said of a wrong scene, whose file is called "s".
+inline std::string error_of(const std::string& text) {
+  try {
+    check(parse_scene(text, "s"));
+  } catch (const std::exception& error) {
+    return error.what();
+  }
+  return "no error";
 }
 
 }  // namespace trajet::test

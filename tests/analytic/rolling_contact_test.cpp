@@ -11,6 +11,7 @@ namespace {
 
 using test::number;
 using test::Way;
+using test::vector;
 
 constexpr double kGravity = 9.81, kRadius = 0.1, kMass = 0.5;
 
@@ -19,8 +20,6 @@ const std::vector<Way>& ways() {
                                      test::fixed("rk4", 1e-2)};
   return ways;
 }
-
-std::string vector(const Vector3& v) { return "[" + number(v.x()) + ", " + number(v.y()) + ", " + number(v.z()) + "]"; }
 
 std::string scene(const std::string& method, double end, const std::string& body, const std::string& obstacle) {
   return "[time]\nend = " + number(end) + "\n[method]\n" + method +

@@ -12,6 +12,7 @@
 namespace trajet {
 namespace {
 
+using test::events_named;
 using test::number;
 using test::run_text;
 using test::Way;
@@ -43,13 +44,6 @@ struct Ball {
   /// Behind the fall, each flight lasts as long as the one before times the restitution.
   double limit() const { return start + std::sqrt(2.0 * height / gravity) * (1.0 + restitution) / (1.0 - restitution); }
 };
-
-std::vector<EventRecord> events_named(const RunResult& result, const std::string& name) {
-  std::vector<EventRecord> found;
-  for (const EventRecord& event : result.events)
-    if (event.event == name) found.push_back(event);
-  return found;
-}
 
 /// `tolerance` of the limit, s, at which the ball comes to rest.
 void expect_limit(const Ball& ball, const Way& way, double tolerance) {

@@ -11,6 +11,7 @@ namespace trajet {
 namespace {
 
 using test::run_text;
+using test::vector;
 using test::Way;
 
 std::vector<Way> ways() {
@@ -19,10 +20,6 @@ std::vector<Way> ways() {
           {"dop853", "name = \"dop853\"\n"},
           test::fixed("rk4", 0.25),
           test::fixed("rk4", 0.07)};
-}
-
-std::string vector(const Vector3& v) {
-  return "[" + test::number(v.x()) + ", " + test::number(v.y()) + ", " + test::number(v.z()) + "]";
 }
 
 std::string rectangle(const std::string& name, const Vector3& center, const Vector3& normal, const Vector3& up,

@@ -13,10 +13,9 @@ namespace trajet {
 namespace {
 
 using test::number;
+using test::vector;
 
 constexpr double kGravity = 9.81;
-
-std::string vector(const Vector3& v) { return "[" + number(v.x()) + ", " + number(v.y()) + ", " + number(v.z()) + "]"; }
 
 /// A box of 2 kg on a plane through the origin.
 std::string box_scene(double end, const Vector3& size, const std::string& body, const Vector3& normal, double friction,

@@ -10,10 +10,9 @@ namespace trajet {
 namespace {
 
 using test::number;
+using test::vector;
 
 constexpr double kGravity = 9.81;
-
-std::string vector(const Vector3& v) { return "[" + number(v.x()) + ", " + number(v.y()) + ", " + number(v.z()) + "]"; }
 
 /// A body of 1 kg on a rough plane through the origin.
 std::string on_plane(double end, const std::string& body, const Vector3& normal) {

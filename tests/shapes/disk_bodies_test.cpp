@@ -12,6 +12,7 @@
 namespace trajet {
 namespace {
 
+using test::error_of;
 using test::final_of;
 using test::impacts_of;
 using test::number;
@@ -20,15 +21,6 @@ using test::vector;
 
 std::string scene(const std::string& body, const std::string& rest = "", double end = 1.0) {
   return "[time]\nend = " + number(end) + "\n[[body]]\nname = \"d\"\n" + body + "\n" + rest;
-}
-
-std::string error_of(const std::string& text) {
-  try {
-    check(parse_scene(text, "s"));
-  } catch (const std::exception& error) {
-    return error.what();
-  }
-  return "no error";
 }
 
 TEST(DiskBodies, HaveTheInertiaOfAThinDisk) {

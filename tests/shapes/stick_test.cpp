@@ -11,19 +11,11 @@
 namespace trajet {
 namespace {
 
+using test::error_of;
 using test::final_of;
 using test::impacts_of;
 using test::number;
 using test::run_text;
-
-std::string error_of(const std::string& text) {
-  try {
-    check(parse_scene(text, "s"));
-  } catch (const std::exception& error) {
-    return error.what();
-  }
-  return "no error";
-}
 
 const std::string kWall =
     "[[obstacle]]\nname = \"wall\"\nshape = \"plane\"\npoint = [0, 0, 0]\nnormal = [-1, 0, 0]\non_hit = \"stick\"\n";

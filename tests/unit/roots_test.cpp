@@ -247,6 +247,52 @@ TEST(Roots, FirstRootLeavesTheBeginAndTouchesBehind) {
 }
 
 // Coefficients of the Bernstein form bound the polynomial, whatever the interval.
+/// c + a (t - m)^2 on [0, 1], whose enclosures tell the sign of its curvature only.
+struct HardlyEnclosed {
+  using Piece = int;
+  double a, m, c;
+  mutable int evaluations = 0;
+
+  double begin() const { return 0.0; }
+  double end() const { return 1.0; }
+  int piece(double, double) const { return 0; }
+  Range value_range(int) const { return {-1e3, 1e3}; }
+  Range rate_range(int) const { return {-1e3, 1e3}; }
+  Range curvature_range(int) const { return {2.0 * a, 2.0 * a}; }
+  FunctionSample at(double t) const {
+    ++evaluations;
+    const double d = t - m;
+    return {{c + a * d * d, 2.0 * a * d, 2.0 * a}, 1e-15, 1e-14};
+  }
+};
+
+TEST(Roots, OfCurvedFunctionsAreFoundAndExcludedByTheirEnds) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<> uniform(-1.0, 1.0);
+  int cheap = 0, crossed = 0;
+  for (int i = 0; i < 3000; ++i) {
+    const HardlyEnclosed f{2.0 * uniform(random), 0.5 + 0.7 * uniform(random), 0.5 * uniform(random)};
+    if (std::abs(f.a) < 1e-3 || std::abs(f.c) < 1e-6) continue;
+    std::size_t expected = 0;
+    for (const double side : {-1.0, 1.0}) {
+      const double t = f.m + side * std::sqrt(std::max(0.0, -f.c / f.a));
+      if (f.c * f.a < 0.0 && t > 0.0 && t < 1.0) ++expected;
+    }
+    std::size_t found = 0;
+    visit_roots(f, [&](const Root& root) {
+      EXPECT_EQ(root.kind, RootKind::crossing);
+      ++found;
+      return true;
+    });
+    ASSERT_EQ(found, expected) << f.a << " " << f.m << " " << f.c;
+    crossed += expected > 0 ? 1 : 0;
+    cheap += expected == 0 && f.evaluations == 2 ? 1 : 0;
+  }
+  // most of those without a root are known by two evaluations
+  EXPECT_GT(crossed, 500);
+  EXPECT_GT(cheap, 1000);
+}
+
 TEST(BernsteinForm, EnclosesValueAndDerivatives) {
   std::mt19937 engine(3);
   std::normal_distribution<double> normal;

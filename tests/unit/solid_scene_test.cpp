@@ -15,20 +15,12 @@
 namespace trajet {
 namespace {
 
+using test::error_of;
 using test::final_of;
 using test::run_text;
 
 std::string scene(const std::string& body, const std::string& rest = "") {
   return "[time]\nend = 1\n[[body]]\nname = \"b\"\n" + body + "\n" + rest;
-}
-
-std::string error_of(const std::string& text) {
-  try {
-    check(parse_scene(text, "s"));
-  } catch (const std::exception& error) {
-    return error.what();
-  }
-  return "no error";
 }
 
 TEST(SolidScene, MistakesAreErrorsAtTheirPlace) {

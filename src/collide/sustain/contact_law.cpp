@@ -3,12 +3,14 @@
 #include <utility>
 
 #include "contact_builder.hpp"
+#include "contact_ways.hpp"
 #include "trajet/collide/sustain/resting_contact.hpp"
 #include "trajet/portable.hpp"
 
 namespace trajet {
 namespace {
 
+using detail::along_surface;
 using detail::ContactBuilder;
 using NumberVector = Vector3T<ProgramNumber>;
 
@@ -60,9 +62,6 @@ class ResistanceEnds {
   std::vector<NumberVector> motions_;
   NumberVector normal_;
 };
-
-/// What a force or torque of the surface has without its part along the normal.
-NumberVector along_surface(const NumberVector& v, const NumberVector& normal) { return v - normal * normal.dot(v); }
 
 /// Of each point whose friction follows its slip, the squares of its speed and acceleration along the surface.
 Program slips_that_bend(ProgramBuilder& builder, const BodyTerms<ProgramNumber>& terms,

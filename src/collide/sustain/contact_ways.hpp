@@ -6,7 +6,12 @@
 
 namespace trajet::detail {
 
-inline Vector3 along_surface(const Vector3& v, const Vector3& normal) { return v - v.dot(normal) * normal; }
+/// What a motion or a force has without its part along the normal.
+template <class V, class T>
+Vector3T<T> along_surface(const V& v, const Vector3T<T>& normal) {
+  const Vector3T<T> whole = v;
+  return whole - normal * normal.dot(whole);
+}
 
 /// The three ways in which a contact resists, as one.
 enum class Way { slip, roll, spin };
